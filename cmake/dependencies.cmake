@@ -1,0 +1,16 @@
+# What the core stands on. docs/adr says why each came.
+find_package(Eigen3 REQUIRED)
+find_package(Boost REQUIRED COMPONENTS system filesystem iostreams program_options)
+find_package(yaml-cpp REQUIRED)
+find_package(Ceres REQUIRED)
+find_package(mrpt-poses REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Threads REQUIRED)
+
+find_library(FEC_LIBRARY fec)
+find_library(SODIUM_LIBRARY sodium)
+foreach(library FEC SODIUM)
+  if(NOT ${library}_LIBRARY)
+    message(FATAL_ERROR "lib${library} is missing: run scripts/setup, which installs what Lodestar needs.")
+  endif()
+endforeach()

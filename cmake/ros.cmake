@@ -1,0 +1,2 @@
+find_package(catkin REQUIRED)
+catkin_package()

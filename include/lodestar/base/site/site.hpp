@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lodestar/base/common/fault.hpp"
+#include "lodestar/base/common/ids.hpp"
+#include "lodestar/base/common/result.hpp"
+#include "lodestar/base/measurement/tone_set.hpp"
+
+namespace lodestar {
+
+enum class Waveform { kSine, kSquare };
+
+/// One beacon as surveyed, or as it announces itself.
+struct Beacon {
+  BeaconId id;
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< m
+  ToneSet tones;                                           ///< indices into Site::tone_table_hz
+  int slot = 0;
+  Waveform waveform = Waveform::kSine;
+  double sigma_m = 0.01;  ///< of the survey, each axis
+};
+
+/// The data channel's parameters (optical_link.md, section 2).
+struct Link {
+  double bit_rate_bps = 19200;
+  double slot_s = 0.025;
+  int slot_count = 32;
+  std::optional<std::array<std::uint8_t, 16>> key;  ///< of the site; when set, unsigned frames are refused
+};
+
+/// The surveyed site: shared interface "Site file".
+struct Site {
+  std::string name;
+  std::string frame_id = "map";
+  Link link;
+  std::vector<double> tone_table_hz;
+  std::vector<Beacon> beacons;  ///< may be empty: then positions come from announcements alone
+};
+
+/// What the site's tones must get along with; known from the vehicle file or from a recording.
+struct FrameRate {
+  double rate_hz = 60;
+  double mains_hz = 50;
+};
+
+/// Reads and checks a site file; every fault is listed with file and line: unknown key, missing key, duplicate id,
+/// code or slot clash within 30 m, NaN, a dimensioned key without its unit, slot out of range, more than 3 tones,
+/// tone not in the table, unreadable key file. A relative key_file is looked for beside the site file.
+Result<Site, Faults> load_site(const std::string& path);
+
+/// Checks the tones against a frame rate: above Nyquist, or on an alias of the mains' flicker (100 and 120 Hz and their
+/// multiples fold to |m - k fs|), or closer to one another than rate / window. `path` is for the faults alone.
+Faults check_tones(const Site& site, const FrameRate& frame_rate, const std::string& path);
+
+/// The window of the interfaces page: the shortest multiple of rate / smallest tone spacing (0 Hz counted in) that has
+/// at least 15 frames.
+int window_frames(const std::vector<double>& tone_table_hz, double frame_rate_hz);
+
+}  // namespace lodestar

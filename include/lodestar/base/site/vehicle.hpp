@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "lodestar/base/common/fault.hpp"
+#include "lodestar/base/common/result.hpp"
+#include "lodestar/base/geometry/rigid_transform.hpp"
+
+namespace lodestar {
+
+/// What hangs on the forklift and how well it is known. Defaults suit an industrial truck; a vehicle file overrides any.
+struct Vehicle {
+  std::string name = "truck";
+  std::optional<RigidTransform> T_base_camera;  ///< empty: from /tf_static
+  std::optional<RigidTransform> T_base_imu;     ///< empty: from /tf_static
+  double camera_mount_sigma_rad = 0.002;        ///< of the mount's roll, pitch, yaw
+  std::optional<int> window_frames;             ///< empty: window_frames(tone table, rate)
+  std::optional<double> camera_rate_hz;         ///< empty: from the stamps
+  double camera_time_offset_s = 0;              ///< added to each image's stamp
+  double mains_hz = 50;                         ///< 50 or 60
+  double calibration_sigma_px = 0.3;            ///< of the lens model, common to neighbouring pixels
+  double gyro_noise_rad_s = 0.002;              ///< white, each sample
+  double gyro_bias_rad_s = 0.005;               ///< one sigma of the turn-on bias
+  double accelerometer_noise_m_s2 = 0.05;       ///< white, each sample
+  double accelerometer_bias_m_s2 = 0.05;        ///< one sigma of the turn-on bias
+  double odometry_velocity_sigma_m_s = 0.03;
+  double odometry_yaw_rate_sigma_rad_s = 0.01;
+  double odometry_scale_sigma = 0.02;           ///< relative
+};
+
+/// Reads and checks a vehicle file, in the manners of load_site.
+Result<Vehicle, Faults> load_vehicle(const std::string& path);
+
+}  // namespace lodestar

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lodestar/base/geometry/camera_model.hpp"
+#include "lodestar/base/measurement/pose_estimate.hpp"
+#include "lodestar/base/measurement/sighting.hpp"
+#include "lodestar/base/site/site.hpp"
+
+namespace lodestar {
+
+struct BeaconNamerParams {
+  double gate_probability = 0.999;   ///< of a true beacon to lie inside the gate around its predicted pixel
+  double margin_chi2 = 9.0;          ///< the next best beacon (or blob) must be worse by this squared distance
+  double model_sigma_px = 1.0;       ///< lens, mount and survey, beside the sighting's and the pose's covariance
+};
+
+/// Which beacon a blob is: its code, and where codes are in use more than once, the place where the predicted pose
+/// expects each. In doubt a blob stays unnamed.
+class BeaconNamer {
+ public:
+  explicit BeaconNamer(const BeaconNamerParams& params);
+
+  /// Sets or clears `beacon` of each sighting.
+  /// @param beacons in force
+  /// @param heard beacons with a recent announcement: without a pose, a reused code is settled when exactly one of
+  ///              its beacons is heard
+  /// @param estimate pose of base_link for about the sightings' stamp; empty: not known
+  void name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+            const CameraModel& camera, const RigidTransform& T_base_camera,
+            const std::optional<PoseEstimate>& estimate) const;
+
+ private:
+  BeaconNamerParams params_;
+};
+
+}  // namespace lodestar

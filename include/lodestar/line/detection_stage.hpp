@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lodestar/base/measurement/image.hpp"
+#include "lodestar/base/measurement/motion.hpp"
+#include "lodestar/base/measurement/pose_estimate.hpp"
+#include "lodestar/base/measurement/sighting.hpp"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/base/site/vehicle.hpp"
+#include "lodestar/estimation/naming/beacon_namer.hpp"
+#include "lodestar/line/camera_mount.hpp"
+#include "lodestar/sensing/beacon/beacon_detector.hpp"
+#include "lodestar/sensing/beacon/image_motion.hpp"
+
+namespace lodestar {
+
+/// Images in, named sightings out: the detector, the image motion that its window follows, and the names.
+class DetectionStage {
+ public:
+  DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer);
+
+  void set_camera(const CameraMount& camera);
+
+  /// The beacons in force (BeaconTable::beacons): those that sightings may be named after.
+  void set_beacons(const std::vector<Beacon>& beacons);
+
+  void add_imu(const ImuSample& sample);
+  void add_odometry(const OdometrySample& sample);
+
+  /// The filter's latest word, for naming and for the image motion. None: localization is lost.
+  void set_estimate(const std::optional<StateEstimate>& estimate);
+
+  /// The sightings of the window that ends with this image, or why the image was dropped.
+  Result<Sightings, FrameDrop> process(const Image& image);
+
+  /// Forgets the window and all motion (time went backwards, bag restarted).
+  void reset();
+
+  const DropCounts<FrameDrop>& drops() const { return detector_.drops(); }
+  const BeaconDetector& detector() const { return detector_; }
+
+ private:
+  BeaconDetector detector_;
+  BeaconNamer namer_;
+  ImageMotion motion_;
+  CameraMount camera_;
+  std::vector<Beacon> beacons_;
+  std::optional<StateEstimate> estimate_;
+};
+
+}  // namespace lodestar

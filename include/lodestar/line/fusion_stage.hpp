@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lodestar/base/measurement/motion.hpp"
+#include "lodestar/base/measurement/pose_estimate.hpp"
+#include "lodestar/base/measurement/sighting.hpp"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/estimation/fusion/pose_filter.hpp"
+#include "lodestar/line/camera_mount.hpp"
+
+namespace lodestar {
+
+/// Fixes, sightings and motion in, the filtered pose out. Fixes start the filter (and restart it after a loss);
+/// sightings correct it while it runs; with `use_sightings` off, fixes do both.
+class FusionStage {
+ public:
+  FusionStage(const PoseFilterParams& filter, double calibration_sigma_px, bool use_sightings);
+
+  void set_camera(const CameraMount& camera);
+  void set_beacons(const std::vector<Beacon>& beacons);
+
+  void add_imu(const ImuSample& sample);
+  void add_odometry(const OdometrySample& sample);
+  void add_sightings(const Sightings& sightings);
+  void add_fix(const Fix& fix);
+
+  const PoseFilter& filter() const { return filter_; }
+  void reset();
+
+ private:
+  PoseFilter filter_;
+  double calibration_sigma_px_;
+  bool use_sightings_;
+  CameraMount camera_;
+  std::vector<Beacon> beacons_;
+};
+
+}  // namespace lodestar

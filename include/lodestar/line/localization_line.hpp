@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+
+#include "lodestar/base/measurement/ir_frame.hpp"
+#include "lodestar/line/detection_stage.hpp"
+#include "lodestar/line/fusion_stage.hpp"
+#include "lodestar/line/pose_stage.hpp"
+#include "lodestar/sensing/irlink/beacon_table.hpp"
+#include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
+
+namespace lodestar {
+
+/// What one stage of the line needs of site, vehicle and camera rate. Every program that runs a stage, nodelet or tool,
+/// takes its parameters from here, so that all of them do the same.
+struct LineParams {
+  BeaconDetectorParams detector;
+  BeaconNamerParams namer;
+  PoseSolverParams solver;
+  TiltFilterParams tilt;
+  PoseFilterParams filter;
+  double calibration_sigma_px = 0.3;
+  bool use_sightings = true;
+};
+LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_rate_hz);
+
+/// The whole optical line in one object, for replay and simulation: the same stages that the nodelets run.
+/// Calls come in the order of reception.
+class LocalizationLine {
+ public:
+  /// What one image led to.
+  struct Outcome {
+    Sightings sightings;
+    std::optional<Fix> fix;
+    std::optional<StateEstimate> estimate;  ///< at the image's stamp; empty before the first fix
+  };
+
+  LocalizationLine(const Site& site, const LineParams& params);
+
+  void set_camera(const CameraMount& camera);
+  void add_imu(const ImuSample& sample);
+  void add_odometry(const OdometrySample& sample);
+
+  /// The accepted announcement, or why the frame was dropped.
+  Result<Announcement, IrDrop> add_ir_frame(const IrFrame& frame);
+
+  Result<Outcome, FrameDrop> process(const Image& image);
+
+  void reset();
+
+  const BeaconTable& beacon_table() const { return table_; }
+  const DetectionStage& detection() const { return detection_; }
+  const PoseStage& pose() const { return pose_; }
+  const FusionStage& fusion() const { return fusion_; }
+
+ private:
+  IrFrameDecoder decoder_;
+  BeaconTable table_;
+  DetectionStage detection_;
+  PoseStage pose_;
+  FusionStage fusion_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "lodestar/base/measurement/bearing.hpp"
+#include "lodestar/base/measurement/motion.hpp"
+#include "lodestar/base/measurement/pose_estimate.hpp"
+#include "lodestar/base/measurement/sighting.hpp"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/estimation/pose/pose_solver.hpp"
+#include "lodestar/estimation/pose/tilt_filter.hpp"
+#include "lodestar/line/camera_mount.hpp"
+
+namespace lodestar {
+
+/// Directions to the named sightings' beacons. Sightings without a name, of an unknown beacon, or outside the lens
+/// model's domain are left out.
+/// @param calibration_sigma_px added in quadrature to each sighting's own covariance
+BeaconBearings bearings(const Sightings& sightings, const CameraModel& camera, const std::vector<Beacon>& beacons,
+                        double calibration_sigma_px);
+
+/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver.
+class PoseStage {
+ public:
+  PoseStage(const PoseSolverParams& solver, const TiltFilterParams& tilt, double calibration_sigma_px);
+
+  void set_camera(const CameraMount& camera);
+  void set_beacons(const std::vector<Beacon>& beacons);
+  void add_imu(const ImuSample& sample);
+  void add_odometry(const OdometrySample& sample);
+
+  /// The pose of base_link at the sightings' stamp, or why there is none.
+  Result<Fix, NoFix> process(const Sightings& sightings);
+
+  void reset();
+  const DropCounts<NoFix>& refusals() const { return refusals_; }
+
+ private:
+  PoseSolver solver_;
+  TiltFilter tilt_;
+  double calibration_sigma_px_;
+  CameraMount camera_;
+  std::vector<Beacon> beacons_;
+  DropCounts<NoFix> refusals_;
+};
+
+}  // namespace lodestar
