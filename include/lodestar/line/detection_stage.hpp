@@ -12,7 +12,7 @@
 #include "lodestar/estimation/naming/beacon_namer.hpp"
 #include "lodestar/line/camera_mount.hpp"
 #include "lodestar/sensing/beacon/beacon_detector.hpp"
-#include "lodestar/sensing/beacon/image_motion.hpp"
+#include "lodestar/sensing/beacon/camera_motion.hpp"
 
 namespace lodestar {
 
@@ -44,7 +44,7 @@ class DetectionStage {
  private:
   BeaconDetector detector_;
   BeaconNamer namer_;
-  ImageMotion motion_;
+  CameraMotion motion_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
   std::optional<StateEstimate> estimate_;
