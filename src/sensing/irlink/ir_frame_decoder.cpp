@@ -88,7 +88,7 @@ IrFrameDecoder::IrFrameDecoder(const Link& link, int tone_count)
       tone_count_(std::min(tone_count, ToneSet::kMaxTones)),
       code_(std::make_shared<const ReedSolomon>()) {}
 
-Result<Announcement, IrDrop> IrFrameDecoder::decode(const IrFrame& frame) const {
+Result<Announcement, IrDrop> IrFrameDecoder::decode(const RawIrFrame& frame) const {
   IrOctets octets = frame.octets;
   const auto corrected = code_->correct(octets);
   if (!corrected) return IrDrop::kUncorrectable;

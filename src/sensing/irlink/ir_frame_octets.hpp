@@ -25,7 +25,7 @@ constexpr std::size_t kIrTones = 3;
 constexpr std::uint8_t kIrNoTone = 0xFF;
 constexpr double kIrUnit_m = 1e-3;
 
-using IrOctets = std::array<std::uint8_t, IrFrame::kOctets>;
+using IrOctets = std::array<std::uint8_t, RawIrFrame::kOctets>;
 
 /// Unsigned, big-endian, of T's size.
 template <class T>

@@ -9,7 +9,7 @@ extern "C" {
 namespace lodestar {
 
 ReedSolomon::ReedSolomon()
-    : code_(init_rs_char(8, 0x11D, 0, 1, kParityOctets, 255 - static_cast<int>(IrFrame::kOctets)), free_rs_char) {
+    : code_(init_rs_char(8, 0x11D, 0, 1, kParityOctets, 255 - static_cast<int>(RawIrFrame::kOctets)), free_rs_char) {
   if (!code_) throw std::bad_alloc();
 }
 

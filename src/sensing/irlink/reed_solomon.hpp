@@ -15,7 +15,7 @@ class ReedSolomon {
  public:
   static constexpr int kParityOctets = 10;
   static constexpr int kMostErrors = kParityOctets / 2;
-  using Octets = std::array<std::uint8_t, IrFrame::kOctets>;
+  using Octets = std::array<std::uint8_t, RawIrFrame::kOctets>;
 
   ReedSolomon();
 

@@ -41,14 +41,10 @@ class IrFrameDecoder {
  public:
   /// @param tone_count of the site's tone table, at most ToneSet::kMaxTones
   IrFrameDecoder(const Link& link, int tone_count);
-<<<<<<< HEAD
-  Result<Announcement, IrDrop> decode(const RawIrFrame& frame) const;
-=======
 
   /// Levels of which one is not finite are left out of the announcement; the frame is not dropped for them. On a site
   /// without a key a signed frame passes with its tag unread.
-  Result<Announcement, IrDrop> decode(const IrFrame& frame) const;
->>>>>>> files
+  Result<Announcement, IrDrop> decode(const RawIrFrame& frame) const;
 
  private:
   Link link_;
@@ -56,14 +52,9 @@ class IrFrameDecoder {
   std::shared_ptr<const ReedSolomon> code_;
 };
 
-<<<<<<< HEAD
-/// The 46 octets that a beacon sends. Signed when the link has a key.
-std::array<std::uint8_t, RawIrFrame::kOctets> encode_ir_frame(const Announcement& announcement, const Link& link);
-=======
 /// The 46 octets that a beacon sends; the position goes to the nearest mm. Signed when the link has a key, whatever
 /// `is_signed` says. Throws std::invalid_argument when the position is beyond 32 bits of mm or not finite, or when
 /// there are no tones or more than three.
-std::array<std::uint8_t, IrFrame::kOctets> encode_ir_frame(const Announcement& announcement, const Link& link);
->>>>>>> files
+std::array<std::uint8_t, RawIrFrame::kOctets> encode_ir_frame(const Announcement& announcement, const Link& link);
 
 }  // namespace lodestar
