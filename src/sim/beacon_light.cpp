@@ -24,7 +24,7 @@ Modulation modulation(const Beacon& beacon, const std::vector<double>& tone_tabl
 }  // namespace
 
 double ir_frame_duration_s(const Link& link) {
-  return (kPreambleAndSyncBits + 8.0 * IrFrame::kOctets) / link.bit_rate_bps;
+  return (kPreambleAndSyncBits + 8.0 * RawIrFrame::kOctets) / link.bit_rate_bps;
 }
 
 BeaconLight::BeaconLight(const Beacon& beacon, const std::vector<double>& tone_table_hz, const Link& link,

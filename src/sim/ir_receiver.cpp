@@ -51,15 +51,15 @@ std::vector<float> IrReceiver::levels(const Eigen::Vector3d& position_map, const
   return levels;
 }
 
-void IrReceiver::damage(IrFrame& frame) {
+void IrReceiver::damage(RawIrFrame& frame) {
   if (params_.bit_error_rate <= 0) return;
   for (auto& octet : frame.octets)
     for (int bit = 0; bit < 8; ++bit)
       if (random_.chance(params_.bit_error_rate)) octet = static_cast<std::uint8_t>(octet ^ (1u << bit));
 }
 
-IrFrame IrReceiver::junk() {
-  IrFrame frame;
+RawIrFrame IrReceiver::junk() {
+  RawIrFrame frame;
   for (auto& octet : frame.octets) octet = static_cast<std::uint8_t>(random_.index(256));
   for (std::size_t i = 0; i < directions_.size(); ++i) frame.levels.push_back(clip(random_.uniform(0, 0.1)));
   return frame;

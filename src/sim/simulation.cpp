@@ -32,6 +32,13 @@ RigidTransform true_mount(RigidTransform told, double sigma_rad, double sigma_m,
   return told;
 }
 
+/// From imu_link's axes into base_link's, as the stack is told that they lie.
+ImuSample turned(ImuSample sample, const RigidTransform& T_base_imu) {
+  sample.angular_velocity_rad_s = T_base_imu.linear() * sample.angular_velocity_rad_s;
+  sample.specific_force_m_s2 = T_base_imu.linear() * sample.specific_force_m_s2;
+  return sample;
+}
+
 double due(std::uint64_t count, double rate_hz) { return static_cast<double>(count) / rate_hz; }
 
 }  // namespace
@@ -97,7 +104,7 @@ void Simulation::sample_next() {
     ++truth_count_;
   }
   if (imu_ && t == due(imu_count_, scenario_.imu.rate_hz)) {
-    push(t + kImuLatency_s, imu_->sample(*truck_, t, stamp(t)));
+    push(t + kImuLatency_s, turned(imu_->sample(*truck_, t, stamp(t)), scenario_.imu.T_base_imu));
     ++imu_count_;
   }
   if (odometry_ && t == due(odometry_count_, scenario_.odometry.rate_hz)) {

@@ -21,12 +21,11 @@ struct ImuParams {
   double accelerometer_bias_walk_m_s2_sqrt_s = 0;
 };
 
-/// Gyro and accelerometer on a lever arm. Samples come in the axes of imu_link; where that is turned as base_link is,
-/// in those of base_link as well.
+/// Gyro and accelerometer on a lever arm. Samples come in the sensor's own axes (imu_link); Simulation turns them into
+/// base_link, as a driver's reader does.
 class Imu {
  public:
   Imu(const ImuParams& params, std::uint64_t seed);
-  /// @param stamp given to the sample as it is
   ImuSample sample(const Truck& truck, double time_s, Stamp stamp);
 
  private:

@@ -42,7 +42,7 @@ class IrReceiver {
   /// @return frames with the offset of each to the slot's begin
   struct Heard {
     double offset_s = 0;
-    IrFrame frame;  ///< without a stamp
+    RawIrFrame frame;  ///< without a stamp
   };
   std::vector<Heard> listen(const std::vector<Sender>& senders, const Link& link, const BeaconLightParams& light,
                             const Scene& scene, const RigidTransform& T_map_base, int slot, std::uint32_t superframe);
@@ -52,8 +52,8 @@ class IrReceiver {
                             const RigidTransform& T_map_base) const;
 
  private:
-  void damage(IrFrame& frame);
-  IrFrame junk();
+  void damage(RawIrFrame& frame);
+  RawIrFrame junk();
 
   IrReceiverParams params_;
   Random random_;

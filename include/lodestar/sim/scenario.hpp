@@ -39,6 +39,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   std::optional<double> duration_s;  ///< empty: endless
   Stamp start{std::chrono::seconds(1700000000)};
+  double mains_hz = 50;
   Site site;
   std::string site_path;  ///< of the file that `site` came from
 
