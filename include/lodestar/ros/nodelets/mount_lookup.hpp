@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "lodestar/base/geometry/rigid_transform.hpp"
+
+namespace lodestar {
+
+/// Where a sensor sits on the vehicle: from the vehicle file, or from /tf_static as soon as it is there. Never guessed.
+class MountLookup {
+ public:
+  MountLookup(const ros::NodeHandle& nh, std::string base_frame);
+
+  /// A mount that needs no lookup.
+  void set(const std::string& frame, const RigidTransform& T_base_sensor) { known_[frame] = T_base_sensor; }
+  /// Empty while the transform is missing. A transform found is kept: mounts do not move.
+  std::optional<RigidTransform> T_base(const std::string& frame);
+
+  const std::string& base_frame() const { return base_frame_; }
+
+ private:
+  std::string base_frame_;
+  std::map<std::string, RigidTransform> known_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+};
+
+}  // namespace lodestar

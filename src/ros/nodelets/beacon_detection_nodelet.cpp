@@ -1,0 +1,125 @@
+#include "lodestar/ros/nodelets/beacon_detection_nodelet.hpp"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "lodestar/ros/convert/image.hpp"
+#include "lodestar/ros/convert/sightings.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
+
+namespace lodestar {
+
+namespace {
+constexpr double kEstimateAge_s = 1.0;  // an older word of the filter names nothing
+constexpr int kImageQueue = 10;
+}  // namespace
+
+void BeaconDetectionNodelet::onInit() {
+  ros::NodeHandle& nh = getNodeHandle();
+  ParamReader reader(getPrivateNodeHandle());
+  config_ = BeaconDetectionConfig::__getDefault__();
+  const auto lowest = BeaconDetectionConfig::__getMin__();
+  const auto highest = BeaconDetectionConfig::__getMax__();
+  reader.number("false_alarm_rate", config_.false_alarm_rate, {lowest.false_alarm_rate, highest.false_alarm_rate});
+  reader.number("code_margin_db", config_.code_margin_db, {lowest.code_margin_db, highest.code_margin_db});
+  edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "beacon detection", [this] { reset(); });
+  frame_rate_hz_ = edge_->vehicle().camera_rate_hz;
+
+  Health& health = edge_->health();
+  image_watch_ = &health.watch("image", Need::kRequired);
+  sightings_watch_ = &health.watch("sightings", Need::kRequired);
+  health.add_report([this](Health::Status& status) { report(status); });
+  sightings_ = nh.advertise<BeaconSightingArray>("beacons/sightings", 10);
+  tuning_ = std::make_unique<dynamic_reconfigure::Server<BeaconDetectionConfig>>(getPrivateNodeHandle());
+  tuning_->setCallback([this](BeaconDetectionConfig& config, std::uint32_t) { tune(config); });
+  start_inputs(nh);
+}
+
+void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
+  camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), edge_->health(), edge_->vehicle().T_base_camera);
+  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [this](const auto& beacons) {
+    if (stage_) stage_->set_beacons(beacons);
+  });
+  motion_ = std::make_unique<MotionInput>(
+      nh, *edge_,
+      [this](const ImuSample& sample) {
+        if (stage_) stage_->add_imu(sample);
+      },
+      [this](const OdometrySample& sample) {
+        if (stage_) stage_->add_odometry(sample);
+      });
+  estimate_input_ = std::make_unique<EstimateInput>(nh, edge_->health(), edge_->map_frame(),
+                                                    [this](const StateEstimate& estimate) {
+                                                      if (stage_) stage_->set_estimate(estimate);
+                                                      estimate_stamp_ = estimate.stamp;
+                                                    });
+  if (frame_rate_hz_) make_stage();
+  image_transport::ImageTransport transport(nh);
+  images_ = transport.subscribe("camera/image_raw", kImageQueue, &BeaconDetectionNodelet::take_image, this,
+                                image_transport::TransportHints("raw", {}, getPrivateNodeHandle()));
+}
+
+void BeaconDetectionNodelet::tune(const BeaconDetectionConfig& config) {
+  config_ = config;
+  if (stage_) make_stage();
+}
+
+void BeaconDetectionNodelet::make_stage() {
+  LineParams params = line_params(edge_->site(), edge_->vehicle(), *frame_rate_hz_);
+  params.detector.false_alarm_rate = config_.false_alarm_rate;
+  params.detector.code_margin_db = config_.code_margin_db;
+  stage_ = std::make_unique<DetectionStage>(params.detector, params.namer);
+  stage_->set_beacons(beacons_->table().beacons());
+  camera_revision_ = 0;
+}
+
+void BeaconDetectionNodelet::take_image(const sensor_msgs::ImageConstPtr& message) {
+  image_watch_->tick();
+  const auto image = image_from(message, edge_->vehicle().camera_time_offset_s);
+  if (!image) return edge_->health().drop(image.error());
+  if (!edge_->admit(message->header.stamp)) return;
+  if (stage_) return process(*image);
+
+  waiting_.push_back(*image);
+  if (waiting_.size() > FrameRateEstimate::kFrames) waiting_.pop_front();
+  frame_rate_hz_ = rate_.add(image->stamp);
+  if (!frame_rate_hz_) return;
+  NODELET_INFO("the camera sends %.2f frames a second", *frame_rate_hz_);
+  make_stage();
+  for (const Image& early : waiting_) process(early);
+  waiting_.clear();
+}
+
+void BeaconDetectionNodelet::process(const Image& image) {
+  const CameraMount* camera = camera_->get();
+  if (camera == nullptr) return;
+  if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
+  camera_revision_ = camera_->revision();
+  if (!estimate_stamp_ || seconds(image.stamp - *estimate_stamp_) > kEstimateAge_s) stage_->set_estimate(std::nullopt);
+
+  const auto sightings = stage_->process(image);
+  if (!sightings) return;
+  sightings_.publish(sightings_message(*sightings, edge_->site().tone_table_hz, camera_->frame()));
+  sightings_watch_->tick();
+  last_sightings_ = sightings->sightings.size();
+  last_named_ = 0;
+  for (const Sighting& sighting : sightings->sightings) last_named_ += sighting.beacon ? 1 : 0;
+}
+
+void BeaconDetectionNodelet::report(Health::Status& status) {
+  status.addf("frame_rate_hz", "%.2f", frame_rate_hz_.value_or(0));
+  status.add("sightings in the last window", last_sightings_);
+  status.add("named in the last window", last_named_);
+  if (!stage_) return;
+  report_drops(stage_->drops(), status);
+}
+
+void BeaconDetectionNodelet::reset() {
+  if (stage_) stage_->reset();
+  beacons_->reset_time();
+  waiting_.clear();
+  estimate_stamp_.reset();
+}
+
+}  // namespace lodestar
+
+PLUGINLIB_EXPORT_CLASS(lodestar::BeaconDetectionNodelet, nodelet::Nodelet)
