@@ -20,8 +20,11 @@ struct LineParams {
   TiltFilterParams tilt;
   PoseFilterParams filter;
   double calibration_sigma_px = 0.3;
-  bool use_sightings = true;
+  bool use_sightings = true;          ///< tightly coupled; off: the filter is fed with fixes alone
+  Duration heard_for{};               ///< how long after its announcement a beacon counts as heard
 };
+
+/// @param frame_rate_hz of the camera, for the window where neither file fixes it
 LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_rate_hz);
 
 /// The whole optical line in one object, for replay and simulation: the same stages that the nodelets run.
@@ -54,6 +57,9 @@ class LocalizationLine {
   const FusionStage& fusion() const { return fusion_; }
 
  private:
+  void share_beacons();
+
+  Duration heard_for_;
   IrFrameDecoder decoder_;
   BeaconTable table_;
   DetectionStage detection_;

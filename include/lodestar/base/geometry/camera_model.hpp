@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/common/result.hpp"
 
@@ -21,8 +20,8 @@ struct CameraIntrinsics {
   std::array<double, 8> coefficients{};  ///< k1..k4 | k1 k2 p1 p2 k3 | k1 k2 p1 p2 k3 k4 k5 k6; unused are 0
 };
 
-/// Pixel to bearing and back for one camera, in camera_optical_frame (z along the optical axis, x along +u, y along +v).
-/// Immutable; safe to share between threads.
+/// Pixel to bearing and back for one camera, in camera_optical_frame (z along the optical axis, x along +u, y along
+/// +v). Immutable; safe to share between threads.
 class CameraModel {
  public:
   /// A unit vector and its Jacobian (3x2, per px) by the pixel.
@@ -36,8 +35,8 @@ class CameraModel {
     Eigen::Matrix<double, 2, 3> J_pixel_point;
   };
 
-  /// Refuses NaN, non-positive sizes and focal lengths, and a lens that is not monotonic anywhere; the error says
-  /// which value is wrong and what it may be.
+  /// Refuses NaN, non-positive sizes and focal lengths, coefficients that the distortion does not have, and a lens
+  /// that is not monotonic anywhere; the error says which value is wrong and what it may be.
   static Result<std::shared_ptr<const CameraModel>, std::string> create(const CameraIntrinsics& intrinsics);
 
   /// Where a pixel looks. None outside the model's domain (beyond the radius where the distortion ceases to be
@@ -48,6 +47,7 @@ class CameraModel {
   /// May lie outside the image: ask contains().
   std::optional<Projection> project(const Eigen::Vector3d& point_camera) const;
 
+  /// Whether the pixel lies on the image, the outer pixels' full area included.
   bool contains(const Eigen::Vector2d& pixel) const;
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
@@ -55,7 +55,7 @@ class CameraModel {
   explicit CameraModel(const CameraIntrinsics& intrinsics);
 
   CameraIntrinsics intrinsics_;
-  double max_radius_ = 0;        ///< of the undistorted image (tan theta, or theta for equidistant)
+  double max_radius_ = 0;  ///< of the undistorted image (tan theta, or theta for equidistant)
   double max_distorted_radius_ = 0;
 };
 
