@@ -45,7 +45,7 @@ class LocalizationLine {
   void add_odometry(const OdometrySample& sample);
 
   /// The accepted announcement, or why the frame was dropped.
-  Result<Announcement, IrDrop> add_ir_frame(const IrFrame& frame);
+  Result<Announcement, IrDrop> add_ir_frame(const RawIrFrame& frame);
 
   Result<Outcome, FrameDrop> process(const Image& image);
 

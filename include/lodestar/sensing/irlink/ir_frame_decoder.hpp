@@ -33,7 +33,7 @@ const char* name(IrDrop reason);
 class IrFrameDecoder {
  public:
   IrFrameDecoder(const Link& link, int tone_count);
-  Result<Announcement, IrDrop> decode(const IrFrame& frame) const;
+  Result<Announcement, IrDrop> decode(const RawIrFrame& frame) const;
 
  private:
   Link link_;
@@ -41,6 +41,6 @@ class IrFrameDecoder {
 };
 
 /// The 46 octets that a beacon sends. Signed when the link has a key.
-std::array<std::uint8_t, IrFrame::kOctets> encode_ir_frame(const Announcement& announcement, const Link& link);
+std::array<std::uint8_t, RawIrFrame::kOctets> encode_ir_frame(const Announcement& announcement, const Link& link);
 
 }  // namespace lodestar
