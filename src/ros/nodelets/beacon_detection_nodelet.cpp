@@ -9,7 +9,6 @@
 namespace lodestar {
 
 namespace {
-constexpr double kEstimateAge_s = 1.0;  // an older word of the filter names nothing
 constexpr int kImageQueue = 10;
 }  // namespace
 
@@ -19,7 +18,8 @@ void BeaconDetectionNodelet::onInit() {
   config_ = BeaconDetectionConfig::__getDefault__();
   const auto lowest = BeaconDetectionConfig::__getMin__();
   const auto highest = BeaconDetectionConfig::__getMax__();
-  reader.number("false_alarm_rate", config_.false_alarm_rate, {lowest.false_alarm_rate, highest.false_alarm_rate});
+  reader.number("false_alarms_per_hour", config_.false_alarms_per_hour,
+                {lowest.false_alarms_per_hour, highest.false_alarms_per_hour});
   reader.number("code_margin_db", config_.code_margin_db, {lowest.code_margin_db, highest.code_margin_db});
   edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "beacon detection", [this] { reset(); });
   frame_rate_hz_ = edge_->vehicle().camera_rate_hz;
@@ -36,9 +36,7 @@ void BeaconDetectionNodelet::onInit() {
 
 void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), edge_->health(), edge_->vehicle().T_base_camera);
-  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [this](const auto& beacons) {
-    if (stage_) stage_->set_beacons(beacons);
-  });
+  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [](const auto&) {});
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_,
       [this](const ImuSample& sample) {
@@ -47,11 +45,10 @@ void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
       [this](const OdometrySample& sample) {
         if (stage_) stage_->add_odometry(sample);
       });
-  estimate_input_ = std::make_unique<EstimateInput>(nh, edge_->health(), edge_->map_frame(),
-                                                    [this](const StateEstimate& estimate) {
-                                                      if (stage_) stage_->set_estimate(estimate);
-                                                      estimate_stamp_ = estimate.stamp;
-                                                    });
+  estimate_input_ =
+      std::make_unique<EstimateInput>(nh, edge_->health(), edge_->map_frame(), [this](const StateEstimate& estimate) {
+        if (stage_) stage_->set_estimate(estimate);
+      });
   if (frame_rate_hz_) make_stage();
   image_transport::ImageTransport transport(nh);
   images_ = transport.subscribe("camera/image_raw", kImageQueue, &BeaconDetectionNodelet::take_image, this,
@@ -65,10 +62,10 @@ void BeaconDetectionNodelet::tune(const BeaconDetectionConfig& config) {
 
 void BeaconDetectionNodelet::make_stage() {
   LineParams params = line_params(edge_->site(), edge_->vehicle(), *frame_rate_hz_);
-  params.detector.false_alarm_rate = config_.false_alarm_rate;
-  params.detector.code_margin_db = config_.code_margin_db;
+  params.detector.false_alarms_per_hour = config_.false_alarms_per_hour;
+  params.detector.code.margin_db = config_.code_margin_db;
+  heard_for_ = params.heard_for;
   stage_ = std::make_unique<DetectionStage>(params.detector, params.namer);
-  stage_->set_beacons(beacons_->table().beacons());
   camera_revision_ = 0;
 }
 
@@ -94,7 +91,8 @@ void BeaconDetectionNodelet::process(const Image& image) {
   if (camera == nullptr) return;
   if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
   camera_revision_ = camera_->revision();
-  if (!estimate_stamp_ || seconds(image.stamp - *estimate_stamp_) > kEstimateAge_s) stage_->set_estimate(std::nullopt);
+  const BeaconTable& table = beacons_->table();
+  stage_->set_beacons(table.beacons(), table.heard(image.stamp, heard_for_));
 
   const auto sightings = stage_->process(image);
   if (!sightings) return;
@@ -117,7 +115,6 @@ void BeaconDetectionNodelet::reset() {
   if (stage_) stage_->reset();
   beacons_->reset_time();
   waiting_.clear();
-  estimate_stamp_.reset();
 }
 
 }  // namespace lodestar

@@ -12,8 +12,8 @@ EstimateInput::EstimateInput(ros::NodeHandle& nh, Health& health, std::string ma
       watch_(health.watch("odometry/filtered", Need::kOptional)),
       map_frame_(std::move(map_frame)),
       on_estimate_(std::move(on_estimate)),
-      subscriber_(nh.subscribe("odometry/filtered", 10, &EstimateInput::take, this,
-                               ros::TransportHints().tcpNoDelay())) {}
+      subscriber_(
+          nh.subscribe("odometry/filtered", 10, &EstimateInput::take, this, ros::TransportHints().tcpNoDelay())) {}
 
 void EstimateInput::take(const nav_msgs::OdometryConstPtr& message) {
   watch_.tick();

@@ -1,9 +1,9 @@
 #include "lodestar/ros/nodelets/ir_decoding_nodelet.hpp"
 
-#include <sstream>
-
 #include <diagnostic_msgs/DiagnosticStatus.h>
+
 #include <pluginlib/class_list_macros.hpp>
+#include <sstream>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ros/convert/announcement.hpp"
@@ -71,7 +71,8 @@ void IrDecodingNodelet::report(Health::Status& status) {
     if (entry.conflict) conflicts << (conflicts.tellp() > 0 ? ", " : "") << id;
   status.add("in conflict with the site file", conflicts.str());
   if (conflicts.tellp() > 0) {
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "not where the site file says: beacon " + conflicts.str());
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        "not where the site file says: beacon " + conflicts.str());
   }
 }
 

@@ -1,9 +1,9 @@
 #include "lodestar/ros/nodelets/pose_fusion_nodelet.hpp"
 
-#include <cmath>
-
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <nav_msgs/Odometry.h>
+
+#include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/line/localization_line.hpp"
@@ -36,8 +36,8 @@ void PoseFusionNodelet::onInit() {
   odometry_ = nh.advertise<nav_msgs::Odometry>("odometry/filtered", 50);
   if (transform_ != Transform::kNone) broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
-  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), health,
-                                           [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
+  beacons_ = std::make_unique<BeaconInput>(
+      nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_,
       [this](const ImuSample& sample) {
@@ -54,7 +54,7 @@ void PoseFusionNodelet::read_params(ParamReader& params) {
   odom_frame_ = params.text("odom_frame", "odom");
   use_sightings_ = params.flag("use_sightings", true);
   const std::string transform = params.choice("publish_tf", "map_odom", {"map_odom", "map_base", "none"});
-  transform_ = transform == "map_odom" ? Transform::kMapOdom
+  transform_ = transform == "map_odom"   ? Transform::kMapOdom
                : transform == "map_base" ? Transform::kMapBase
                                          : Transform::kNone;
 }
@@ -112,8 +112,8 @@ void PoseFusionNodelet::publish_map_odom(const OdometrySample& sample) {
   const auto estimate = stage_->filter().estimate_at(sample.stamp);
   if (!estimate) return;
   transformed_ = sample.stamp;
-  const RigidTransform T_odom_base = Eigen::Translation3d(sample.position_odom_m) *
-                                     Eigen::AngleAxisd(sample.yaw_odom_rad, Eigen::Vector3d::UnitZ());
+  const RigidTransform T_odom_base =
+      Eigen::Translation3d(sample.position_odom_m) * Eigen::AngleAxisd(sample.yaw_odom_rad, Eigen::Vector3d::UnitZ());
   broadcaster_->sendTransform(
       transform_message(estimate->T_map_base * T_odom_base.inverse(), sample.stamp, edge_->map_frame(), odom_frame_));
 }
@@ -131,9 +131,8 @@ void PoseFusionNodelet::report(Health::Status& status) {
     status.addf("sigma_y_m", "%.4f", std::sqrt(estimate->covariance(1, 1)));
     status.addf("sigma_yaw_rad", "%.5f", std::sqrt(estimate->covariance(5, 5)));
   }
-  stage_->filter().drops().each([&](const char* reason, std::uint64_t count) {
-    status.add(std::string("not used: ") + reason, count);
-  });
+  stage_->filter().drops().each(
+      [&](const char* reason, std::uint64_t count) { status.add(std::string("not used: ") + reason, count); });
 }
 
 void PoseFusionNodelet::reset() {

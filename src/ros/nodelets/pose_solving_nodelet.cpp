@@ -1,6 +1,7 @@
 #include "lodestar/ros/nodelets/pose_solving_nodelet.hpp"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+
 #include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/line/localization_line.hpp"
@@ -24,15 +25,14 @@ void PoseSolvingNodelet::onInit() {
   sightings_watch_ = &health.watch("sightings", Need::kRequired);
   fix_watch_ = &health.watch("fix", Need::kRequired);
   health.add_report([this](Health::Status& status) {
-    stage_->refusals().each([&](const char* reason, std::uint64_t count) {
-      status.add(std::string("no fix: ") + reason, count);
-    });
+    stage_->refusals().each(
+        [&](const char* reason, std::uint64_t count) { status.add(std::string("no fix: ") + reason, count); });
   });
 
   fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 10);
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
-  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), health,
-                                           [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
+  beacons_ = std::make_unique<BeaconInput>(
+      nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_, [this](const ImuSample& sample) { stage_->add_imu(sample); },
       [this](const OdometrySample& sample) { stage_->add_odometry(sample); });

@@ -1,11 +1,11 @@
 #include "lodestar/ros/params/param_reader.hpp"
 
+#include <ros/console.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
-
-#include <ros/console.h>
 
 namespace lodestar {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <deque>
-#include <memory>
-#include <optional>
-
 #include <dynamic_reconfigure/server.h>
 #include <image_transport/image_transport.h>
 #include <nodelet/nodelet.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
 
 #include "lodestar/BeaconDetectionConfig.h"
 #include "lodestar/line/localization_line.hpp"
@@ -45,7 +45,7 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   FrameRateEstimate rate_;
   std::optional<double> frame_rate_hz_;
   std::deque<Image> waiting_;  ///< for the frame rate
-  std::optional<Stamp> estimate_stamp_;
+  Duration heard_for_{};
   std::size_t last_sightings_ = 0, last_named_ = 0;
   ros::Publisher sightings_;
   image_transport::Subscriber images_;

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <ros/ros.h>
+
 #include <functional>
 #include <vector>
-
-#include <ros/ros.h>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ros/nodelets/health.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
+
 #include <memory>
 #include <optional>
 #include <string>
-
-#include <ros/ros.h>
-#include <sensor_msgs/CameraInfo.h>
 
 #include "lodestar/line/camera_mount.hpp"
 #include "lodestar/ros/nodelets/health.hpp"

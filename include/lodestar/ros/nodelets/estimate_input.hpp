@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
-
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
+
+#include <functional>
 
 #include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/ros/nodelets/health.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
 #include <deque>
 #include <functional>
 #include <string>
-
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/ros.h>
 
 #include "lodestar/base/common/drop_counts.hpp"
 #include "lodestar/ros/convert/message_drop.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <memory>
-
 #include <nodelet/nodelet.h>
+
+#include <memory>
 
 #include "lodestar/GetBeacons.h"
 #include "lodestar/IrFrame.h"

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
-
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
+
+#include <functional>
 
 #include "lodestar/base/measurement/motion.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <string>
-
 #include <ros/node_handle.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
+
+#include <map>
+#include <optional>
+#include <string>
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nodelet/nodelet.h>
 #include <tf2_ros/transform_broadcaster.h>
+
+#include <memory>
+#include <optional>
 
 #include "lodestar/BeaconSightingArray.h"
 #include "lodestar/line/fusion_stage.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <memory>
-
 #include <nodelet/nodelet.h>
+
+#include <memory>
 
 #include "lodestar/BeaconSightingArray.h"
 #include "lodestar/line/pose_stage.hpp"

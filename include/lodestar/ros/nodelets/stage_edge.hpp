@@ -1,9 +1,9 @@
 #pragma once
 
+#include <ros/ros.h>
+
 #include <functional>
 #include <string>
-
-#include <ros/ros.h>
 
 #include "lodestar/ros/nodelets/health.hpp"
 #include "lodestar/ros/nodelets/mount_lookup.hpp"

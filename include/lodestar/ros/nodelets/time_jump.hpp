@@ -15,8 +15,8 @@ enum class TimeVerdict {
 /// (a bag played without its clock), several messages in a row are older than those before.
 class TimeJump {
  public:
-  static constexpr double kStep_s = 1.0;   ///< a stamp this far from the newest is an outlier
-  static constexpr int kConfirmations = 5; ///< outliers in a row that make a jump
+  static constexpr double kStep_s = 1.0;    ///< a stamp this far from the newest is an outlier
+  static constexpr int kConfirmations = 5;  ///< outliers in a row that make a jump
 
   TimeVerdict check(const ros::Time& stamp, const ros::Time& now = ros::Time::now());
   /// The clock alone, for streams whose stamps are not to be believed.

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <limits>
 #include <set>
 #include <string>
 #include <vector>
-
-#include <ros/node_handle.h>
 
 #include "lodestar/base/common/fault.hpp"
 
