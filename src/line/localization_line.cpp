@@ -63,7 +63,7 @@ void LocalizationLine::add_odometry(const OdometrySample& sample) {
   fusion_.add_odometry(sample);
 }
 
-Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const IrFrame& frame) {
+Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const RawIrFrame& frame) {
   auto announcement = decoder_.decode(frame);
   if (!announcement) {
     table_.count(announcement.error());

@@ -28,7 +28,7 @@ constexpr double kHighestTone_hz = 1000.0;
 constexpr int kMostTonesOfABeacon = 3;
 
 /// Preamble, sync and octets on air.
-constexpr double kFrameBits = 16 + 16 + 8 * static_cast<double>(IrFrame::kOctets);
+constexpr double kFrameBits = 16 + 16 + 8 * static_cast<double>(RawIrFrame::kOctets);
 
 void read_identity(const YamlMap& map, Site& site) {
   site.name = map.text("name").value_or("");
