@@ -1,6 +1,6 @@
 #include "lodestar/ros/nodelets/mount_lookup.hpp"
 
-#include <tf2_eigen/tf2_eigen.h>
+#include "lodestar/ros/convert/transform.hpp"
 
 namespace lodestar {
 
@@ -14,9 +14,9 @@ std::optional<RigidTransform> MountLookup::T_base(const std::string& frame) {
   const auto found = known_.find(frame);
   if (found != known_.end()) return found->second;
   if (!buffer_.canTransform(base_frame_, frame, ros::Time(0))) return std::nullopt;
-  const RigidTransform T = tf2::transformToEigen(buffer_.lookupTransform(base_frame_, frame, ros::Time(0)));
-  if (!T.matrix().allFinite()) return std::nullopt;
-  return known_.emplace(frame, T).first->second;
+  const auto T = transform_from(buffer_.lookupTransform(base_frame_, frame, ros::Time(0)).transform);
+  if (!T) return std::nullopt;
+  return known_.emplace(frame, *T).first->second;
 }
 
 }  // namespace lodestar

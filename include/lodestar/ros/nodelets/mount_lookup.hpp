@@ -12,13 +12,11 @@
 
 namespace lodestar {
 
-/// Where a sensor sits on the vehicle: from the vehicle file, or from /tf_static as soon as it is there. Never guessed.
+/// Where a sensor sits on the vehicle: from /tf_static, as soon as it is there. Never guessed.
 class MountLookup {
  public:
   MountLookup(const ros::NodeHandle& nh, std::string base_frame);
 
-  /// A mount that needs no lookup.
-  void set(const std::string& frame, const RigidTransform& T_base_sensor) { known_[frame] = T_base_sensor; }
   /// Empty while the transform is missing. A transform found is kept: mounts do not move.
   std::optional<RigidTransform> T_base(const std::string& frame);
 
