@@ -11,7 +11,7 @@
 namespace lodestar {
 namespace {
 
-using Octets = std::array<std::uint8_t, IrFrame::kOctets>;
+using Octets = std::array<std::uint8_t, RawIrFrame::kOctets>;
 constexpr int kToneCount = ToneSet::kMaxTones;
 
 Link random_link(std::mt19937& random) {
@@ -38,15 +38,15 @@ Announcement random_announcement(std::mt19937& random) {
   return a;
 }
 
-IrFrame frame(const Octets& octets) {
-  IrFrame frame;
+RawIrFrame frame(const Octets& octets) {
+  RawIrFrame frame;
   frame.octets = octets;
   return frame;
 }
 
 /// Changes `count` different octets.
 Octets damaged(Octets octets, std::size_t count, std::mt19937& random) {
-  std::array<std::size_t, IrFrame::kOctets> places;
+  std::array<std::size_t, RawIrFrame::kOctets> places;
   std::iota(places.begin(), places.end(), std::size_t{0});
   std::shuffle(places.begin(), places.end(), random);
   for (std::size_t i = 0; i < count; ++i) octets[places[i]] ^= static_cast<std::uint8_t>(1 + random() % 255);

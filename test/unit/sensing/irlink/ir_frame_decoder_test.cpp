@@ -20,8 +20,8 @@ Link keyed() {
   return link;
 }
 
-IrFrame frame(const IrOctets& octets) {
-  IrFrame frame;
+RawIrFrame frame(const IrOctets& octets) {
+  RawIrFrame frame;
   frame.stamp = Stamp(Duration(1234567890123456789));
   frame.octets = octets;
   frame.levels = {0.5f, 0.25f};
@@ -162,7 +162,7 @@ TEST(IrFrameDecoder, a_site_without_a_key_takes_signed_frames_with_their_tag_unr
 
 TEST(IrFrameDecoder, levels_that_are_none_are_left_out_and_the_frame_stays) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    IrFrame heard = frame(encode_ir_frame(announcement(), {}));
+    RawIrFrame heard = frame(encode_ir_frame(announcement(), {}));
     heard.levels.push_back(bad);
     const auto decoded = IrFrameDecoder(Link(), kToneCount).decode(heard);
     ASSERT_TRUE(decoded.ok());

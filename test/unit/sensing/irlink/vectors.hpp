@@ -17,7 +17,7 @@ constexpr std::array<std::uint8_t, 16> kVectorKey = {0, 1, 2, 3, 4, 5, 6, 7, 8, 
 /// A worked example of optical_link.md: an announcement and the octets that it is sent as.
 struct Vector {
   Announcement announcement;
-  std::array<std::uint8_t, IrFrame::kOctets> octets{};
+  std::array<std::uint8_t, RawIrFrame::kOctets> octets{};
 };
 
 inline std::vector<Vector> read_vectors() {
