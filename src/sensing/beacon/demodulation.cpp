@@ -6,10 +6,10 @@
 namespace lodestar {
 namespace {
 
-/// One frame's values of the patch, and where they clip or leave the image.
+/// Fills one frame's values of the patch, and notes the pixels that clip or leave the image.
 struct PatchSampler {
   const BlobPath& path;
-  double white_level;
+  float white_level;
   Demodulation& out;
 
   template <class Pixel>
@@ -19,21 +19,30 @@ struct PatchSampler {
     const auto fu = static_cast<float>(shift.x() - whole.x()), fv = static_cast<float>(shift.y() - whole.y());
     // A path that stands still, or moves by whole pixels, needs no neighbour on the right or below.
     const int right = fu > 0, below = fv > 0;
-    for (int i = 0; i < Demodulation::kPixels; ++i) {
-      const Eigen::Vector2i pixel = out.origin + whole + Demodulation::place(i);
-      values[i] = 0;
-      if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() + right >= image.width_px || pixel.y() + below >= image.height_px) {
-        out.valid[i] = false;
-        continue;
+    const int u0 = out.origin.x() + whole.x(), v0 = out.origin.y() + whole.y();
+    const int first = std::clamp(-u0, 0, Demodulation::kSide);
+    const int last = std::clamp(image.width_px - right - u0, first, Demodulation::kSide);
+    for (int y = 0; y < Demodulation::kSide; ++y, values += Demodulation::kSide) {
+      bool* valid = out.valid.data() + y * Demodulation::kSide;
+      const int v = v0 + y;
+      const bool seen = v >= 0 && v + below < image.height_px;
+      for (int x = 0; x < Demodulation::kSide; ++x) {
+        if (!seen || x < first || x >= last) {
+          values[x] = 0;
+          valid[x] = false;
+        }
       }
-      const Pixel* upper = image.row<Pixel>(pixel.y()) + pixel.x();
-      const Pixel* lower = image.row<Pixel>(pixel.y() + below) + pixel.x();
-      if (std::max({upper[0], upper[right], lower[0], lower[right]}) >= white_level) {
-        out.valid[i] = false;
-        out.saturated = true;
+      if (!seen) continue;
+      const Pixel* upper = image.row<Pixel>(v) + u0;
+      const Pixel* lower = image.row<Pixel>(v + below) + u0;
+      for (int x = first; x < last; ++x) {
+        const auto a = static_cast<float>(upper[x]), b = static_cast<float>(upper[x + right]);
+        const auto c = static_cast<float>(lower[x]), d = static_cast<float>(lower[x + right]);
+        values[x] = (1 - fv) * (a + fu * (b - a)) + fv * (c + fu * (d - c));
+        const bool clips = std::max(std::max(a, b), std::max(c, d)) >= white_level;
+        valid[x] = valid[x] && !clips;
+        out.saturated = out.saturated || clips;
       }
-      values[i] = (1 - fv) * ((1 - fu) * static_cast<float>(upper[0]) + fu * static_cast<float>(upper[right])) +
-                  fv * ((1 - fu) * static_cast<float>(lower[0]) + fu * static_cast<float>(lower[right]));
     }
   }
 };
@@ -49,7 +58,7 @@ std::optional<Demodulation> demodulate(const FrameWindow& window, const ToneBank
   out.valid.setConstant(true);
 
   Eigen::Matrix<float, Eigen::Dynamic, Demodulation::kPixels, Eigen::RowMajor> signals(out.frames, +Demodulation::kPixels);
-  const PatchSampler sampler{path, white_level, out};
+  const PatchSampler sampler{path, static_cast<float>(white_level), out};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     float* values = signals.row(static_cast<Eigen::Index>(i)).data();
     if (frames[i].bits == 8) {

@@ -105,6 +105,9 @@ class RecordingReader {
   std::optional<RigidTransform> mount(const std::string& frame) const;
   std::optional<RigidTransform> T_base_camera() const;
 
+  /// In the whole bag; 0 where there is no such topic.
+  std::uint64_t message_count(const std::string& topic) const;
+
   /// How often a message was dropped, by topic and reason. Only as far as next() has come.
   const std::map<std::pair<std::string, std::string>, std::uint64_t>& drops() const;
 
@@ -129,7 +132,7 @@ struct RecordingWriterParams {
   std::vector<Mount> mounts;          ///< /tf_static, written before the first record; the IMU's turns its samples
 };
 
-/// Writes a bag: what the simulator makes and what replay found. The file is complete when the writer is gone.
+/// Writes a bag: what the simulator makes and what replay found. The file is complete after close().
 class RecordingWriter {
  public:
   /// @throws RecordingError: the file cannot be made
@@ -153,6 +156,10 @@ class RecordingWriter {
   /// /tf, map -> odom for one.
   void write(Stamp received, const std::string& parent, const std::string& child, Stamp stamp,
              const RigidTransform& T_parent_child);
+
+  /// Writes what is left and the index. The destructor does so too, but cannot tell of a failure.
+  /// @throws RecordingError: the disk is full
+  void close();
 
  private:
   class Impl;

@@ -1,0 +1,49 @@
+#include "lodestar/estimation/pose/pose_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/beacon_scene.hpp"
+
+namespace lodestar {
+namespace {
+
+TEST(PoseSolverProperty, NoiseFreeIsExactForAnyMountTiltAndLayout) {
+  int solved = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    test::Random random(trial);
+    test::Scene scene = test::random_scene(random, {});
+    const int beacons = 2 + trial % 9;
+    const double spread_m = beacons == 2 ? 0 : 1.5;
+    for (const Eigen::Vector3d& beacon : test::random_ceiling(random, scene, beacons, spread_m))
+      scene.see(beacon, {}, random);
+    const auto fix = PoseSolver({}).solve(scene.seen, scene.tilt, scene.T_base_camera);
+    if (!fix.ok()) {
+      EXPECT_TRUE(beacons <= 3) << beacons << " beacons, trial " << trial << ": " << name(fix.error());
+      continue;
+    }
+    ++solved;
+    ASSERT_LT((fix->T_map_base.translation() - scene.T_map_base.translation()).norm(), 1e-7) << "trial " << trial;
+    ASSERT_LT(so3_log(fix->T_map_base.linear() * scene.T_map_base.linear().transpose()).norm(), 1e-7)
+        << "trial " << trial;
+    ASSERT_EQ(fix->beacons.size(), static_cast<std::size_t>(beacons));
+  }
+  EXPECT_GE(solved, 590);
+}
+
+TEST(PoseSolverProperty, OrderOfTheBearingsDoesNotMatter) {
+  for (int trial = 0; trial < 50; ++trial) {
+    test::Random random(trial);
+    const test::SceneNoise noise{0.001, 0.01, 0.005, 0.002};
+    test::Scene scene = test::random_scene(random, noise);
+    for (const Eigen::Vector3d& beacon : test::random_ceiling(random, scene, 5, 1)) scene.see(beacon, noise, random);
+    const auto forwards = PoseSolver({}).solve(scene.seen, scene.tilt, scene.T_base_camera);
+    std::reverse(scene.seen.bearings.begin(), scene.seen.bearings.end());
+    const auto backwards = PoseSolver({}).solve(scene.seen, scene.tilt, scene.T_base_camera);
+    ASSERT_EQ(forwards.ok(), backwards.ok());
+    if (!forwards.ok()) continue;
+    EXPECT_LT((forwards->T_map_base.matrix() - backwards->T_map_base.matrix()).norm(), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace lodestar
