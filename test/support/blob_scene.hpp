@@ -1,13 +1,12 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <random>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/base/measurement/image.hpp"

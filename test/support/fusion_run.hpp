@@ -29,8 +29,7 @@ struct Sample {
   double t_s = 0;
   FilterMode mode = FilterMode::kStarting;
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();  ///< position, rotation, as in PoseEstimate
-  Eigen::Matrix<double, 6, 1> normalised = Eigen::Matrix<double, 6, 1>::Zero();
-  double nees6 = 0, nees3 = 0;  ///< of all six; of x, y, yaw
+  double nees6 = 0, nees3 = 0;                                              ///< of all six; of x, y, yaw
   double horizontal_m() const { return error.head<2>().norm(); }
 };
 
@@ -38,7 +37,6 @@ inline Sample compare(const StateEstimate& estimate, const RigidTransform& truth
   Sample s;
   s.error.head<3>() = estimate.T_map_base.translation() - truth.translation();
   s.error.tail<3>() = so3_log(estimate.T_map_base.linear() * truth.linear().transpose());
-  s.normalised = s.error.cwiseQuotient(estimate.covariance.diagonal().cwiseSqrt());
   s.nees6 = s.error.dot(estimate.covariance.ldlt().solve(s.error));
   const std::array<int, 3> at{0, 1, 5};
   Eigen::Matrix3d C;
