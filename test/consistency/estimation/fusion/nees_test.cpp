@@ -72,7 +72,7 @@ TEST(Nees, sparse_beacons) {
 }
 
 TEST(Nees, one_beacon_at_a_time) {
-  Scenario scenario{round_the_hall(), {}, 8};
+  Scenario scenario{round_the_hall(), {}, 5};
   scenario.run.most_beacons = [](double t_s) -> std::size_t { return t_s < 4 ? 100 : 1; };
   expect_honest(monte_carlo(scenario));
 }
