@@ -17,6 +17,11 @@ namespace lodestar {
 
 namespace {
 constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends on the frame rate
+
+// A little early counts as due: stamps jitter, and every second sample must not be lost to that.
+bool due(const std::optional<Stamp>& last, Stamp now, double rate_hz) {
+  return !last || now < *last || seconds(now - *last) > 0.75 / rate_hz;
+}
 }
 
 void PoseFusionNodelet::onInit() {
@@ -96,8 +101,7 @@ void PoseFusionNodelet::take_odometry(const OdometrySample& sample) {
 
 void PoseFusionNodelet::publish_if_due() {
   const auto estimate = stage_->filter().estimate();
-  if (!estimate) return;
-  if (published_ && seconds(estimate->stamp - *published_) < 1.0 / publish_rate_hz_) return;
+  if (!estimate || !due(published_, estimate->stamp, publish_rate_hz_)) return;
   published_ = estimate->stamp;
   pose_.publish(pose_estimate_message(*estimate, edge_->map_frame()));
   odometry_.publish(odometry_message(*estimate, edge_->map_frame(), edge_->base_frame()));
@@ -108,7 +112,7 @@ void PoseFusionNodelet::publish_if_due() {
 }
 
 void PoseFusionNodelet::publish_map_odom(const OdometrySample& sample) {
-  if (transformed_ && seconds(sample.stamp - *transformed_) < 1.0 / publish_rate_hz_) return;
+  if (!due(transformed_, sample.stamp, publish_rate_hz_)) return;
   const auto estimate = stage_->filter().estimate_at(sample.stamp);
   if (!estimate) return;
   transformed_ = sample.stamp;

@@ -38,7 +38,7 @@ class SimulationNodelet : public nodelet::Nodelet {
   std::unique_ptr<sim::Simulation> simulation_;
   std::optional<sim::Event> next_;
   ros::WallTime stepped_;
-  Stamp clock_;           ///< simulated time
+  Stamp clock_, told_clock_;  ///< simulated time, and what of it /clock has said
   double behind_s_ = 0;   ///< real time that the machine could not keep up with
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> mounts_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
