@@ -50,15 +50,6 @@ Camera::Camera(const CameraParams& params, std::uint64_t seed)
   field(params.psf_sigma_px, 0.05, 50, "psf_sigma_px");
   field(params.half_field_rad, 0, 3.2, "half_field_rad");
 
-  const std::size_t bytes = static_cast<std::size_t>(params.bits / 8);
-  background_.resize((kBackgroundPixels + static_cast<std::size_t>(params.intrinsics.width_px)) * bytes);
-  for (std::size_t i = 0; i < background_.size(); i += bytes) {
-    const auto value = static_cast<std::uint16_t>(digitize(params_.ambient_e));
-    if (bytes == 1)
-      background_[i] = static_cast<std::uint8_t>(value);
-    else
-      std::memcpy(&background_[i], &value, bytes);
-  }
   electrons_.assign(
       static_cast<std::size_t>(params.intrinsics.width_px) * static_cast<std::size_t>(params.intrinsics.height_px),
       0.f);
@@ -134,10 +125,23 @@ void Camera::collect(const Blob& blob) {
   patches_.push_back(patch);
 }
 
+void Camera::fill_background() {
+  const std::size_t bytes = static_cast<std::size_t>(params_.bits / 8);
+  background_.resize((kBackgroundPixels + static_cast<std::size_t>(params_.intrinsics.width_px)) * bytes);
+  for (std::size_t i = 0; i < background_.size(); i += bytes) {
+    const auto value = static_cast<std::uint16_t>(digitize(params_.ambient_e));
+    if (bytes == 1)
+      background_[i] = static_cast<std::uint8_t>(value);
+    else
+      std::memcpy(&background_[i], &value, bytes);
+  }
+}
+
 void Camera::develop(std::uint8_t* data) {
   const auto width = static_cast<std::size_t>(params_.intrinsics.width_px);
   const auto height = static_cast<std::size_t>(params_.intrinsics.height_px);
   const std::size_t bytes = static_cast<std::size_t>(params_.bits / 8);
+  if (background_.empty()) fill_background();
   for (std::size_t v = 0; v < height; ++v)
     std::memcpy(data + v * width * bytes, &background_[noise_.index(kBackgroundPixels) * bytes], width * bytes);
 

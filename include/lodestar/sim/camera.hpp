@@ -72,6 +72,7 @@ class Camera {
 
  private:
   void collect(const Blob& blob);
+  void fill_background();
   void develop(std::uint8_t* data);
   double digitize(double electrons);
 
