@@ -22,7 +22,7 @@ constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends 
 bool due(const std::optional<Stamp>& last, Stamp now, double rate_hz) {
   return !last || now < *last || seconds(now - *last) > 0.75 / rate_hz;
 }
-}
+}  // namespace
 
 void PoseFusionNodelet::onInit() {
   ros::NodeHandle& nh = getNodeHandle();
@@ -45,7 +45,8 @@ void PoseFusionNodelet::onInit() {
       nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_,
-      [this](const ImuSample& sample) {
+      [this](const ImuSample& sample, const RigidTransform& T_base_imu) {
+        stage_->set_imu(T_base_imu.translation());
         stage_->add_imu(sample);
         publish_if_due();
       },
