@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "lodestar/base/measurement/image.hpp"
@@ -12,7 +12,7 @@
 #include "lodestar/estimation/naming/beacon_namer.hpp"
 #include "lodestar/line/camera_mount.hpp"
 #include "lodestar/sensing/beacon/beacon_detector.hpp"
-#include "lodestar/sensing/beacon/image_motion.hpp"
+#include "lodestar/sensing/beacon/camera_motion.hpp"
 
 namespace lodestar {
 
@@ -24,7 +24,8 @@ class DetectionStage {
   void set_camera(const CameraMount& camera);
 
   /// The beacons in force (BeaconTable::beacons): those that sightings may be named after.
-  void set_beacons(const std::vector<Beacon>& beacons);
+  /// @param heard those with a recent announcement
+  void set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard);
 
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
@@ -42,11 +43,15 @@ class DetectionStage {
   const BeaconDetector& detector() const { return detector_; }
 
  private:
+  /// The estimate moved on to `stamp` by constant velocity; none when it is too old for that.
+  std::optional<PoseEstimate> predicted(Stamp stamp) const;
+
   BeaconDetector detector_;
   BeaconNamer namer_;
-  ImageMotion motion_;
+  CameraMotion motion_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  std::vector<BeaconId> heard_;
   std::optional<StateEstimate> estimate_;
 };
 

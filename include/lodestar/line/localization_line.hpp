@@ -20,8 +20,11 @@ struct LineParams {
   TiltFilterParams tilt;
   PoseFilterParams filter;
   double calibration_sigma_px = 0.3;
-  bool use_sightings = true;
+  bool use_sightings = true;          ///< tightly coupled; off: the filter is fed with fixes alone
+  Duration heard_for{};               ///< how long after its announcement a beacon counts as heard
 };
+
+/// @param frame_rate_hz of the camera, for the window where neither file fixes it
 LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_rate_hz);
 
 /// The whole optical line in one object, for replay and simulation: the same stages that the nodelets run.
@@ -38,11 +41,13 @@ class LocalizationLine {
   LocalizationLine(const Site& site, const LineParams& params);
 
   void set_camera(const CameraMount& camera);
+  /// Where the inertial sensor sits, in base_link (m).
+  void set_imu(const Eigen::Vector3d& imu_position_base);
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
 
   /// The accepted announcement, or why the frame was dropped.
-  Result<Announcement, IrDrop> add_ir_frame(const IrFrame& frame);
+  Result<Announcement, IrDrop> add_ir_frame(const RawIrFrame& frame);
 
   Result<Outcome, FrameDrop> process(const Image& image);
 
@@ -54,6 +59,9 @@ class LocalizationLine {
   const FusionStage& fusion() const { return fusion_; }
 
  private:
+  void share_beacons();
+
+  Duration heard_for_;
   IrFrameDecoder decoder_;
   BeaconTable table_;
   DetectionStage detection_;

@@ -36,6 +36,8 @@ class PoseStage {
   const DropCounts<NoFix>& refusals() const { return refusals_; }
 
  private:
+  Result<Fix, NoFix> solve(const Sightings& sightings) const;
+
   PoseSolver solver_;
   TiltFilter tilt_;
   double calibration_sigma_px_;

@@ -9,7 +9,8 @@
 
 namespace lodestar {
 
-/// What hangs on the forklift and how well it is known. Defaults suit an industrial truck; a vehicle file overrides any.
+/// What hangs on the forklift and how well it is known. Defaults suit an industrial truck; a vehicle file overrides
+/// any.
 struct Vehicle {
   std::string name = "truck";
   std::optional<RigidTransform> T_base_camera;  ///< empty: from /tf_static
@@ -26,10 +27,14 @@ struct Vehicle {
   double accelerometer_bias_m_s2 = 0.05;        ///< one sigma of the turn-on bias
   double odometry_velocity_sigma_m_s = 0.03;
   double odometry_yaw_rate_sigma_rad_s = 0.01;
-  double odometry_scale_sigma = 0.02;           ///< relative
+  double odometry_scale_sigma = 0.02;  ///< relative
 };
 
-/// Reads and checks a vehicle file, in the manners of load_site.
+/// Reads and checks a vehicle file, in the manners of load_site. Angles are in degrees there, in rad here.
+/// Reference: docs/nodes/site_and_vehicle_files.md.
 Result<Vehicle, Faults> load_vehicle(const std::string& path);
+
+/// The same for text at hand. Throws nothing, whatever the text holds.
+Result<Vehicle, Faults> parse_vehicle(const std::string& text, const std::string& file_name);
 
 }  // namespace lodestar

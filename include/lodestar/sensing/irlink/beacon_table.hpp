@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -7,18 +8,32 @@
 #include "lodestar/base/common/drop_counts.hpp"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
+#include "lodestar/sensing/irlink/superframe_clock.hpp"
 
 namespace lodestar {
 
 /// What is known of each beacon: from the site file, from its own announcements, or both.
+///
+/// - In the site file: an announcement from another slot is dropped (kSlot). One that differs by more than 3 sigma on
+///   any axis of map (sigma: the file's sigma_m with the rounding to mm) or in its tones is a conflict: it is dropped
+///   and takes the beacon out of force, until an announcement agrees again. The file's position is the one in use.
+/// - Not in the site file: the first announcement puts the beacon in force where it says, with sigma_m 0.01 when it
+///   calls itself surveyed and 0.10 when not, and later ones within 3 sigma keep it up to date. One that jumps or
+///   changes tones is a conflict and takes it out of force; the third in a row that agree with one another is believed.
 class BeaconTable {
  public:
+  static constexpr double kSurveyedSigma_m = 0.01;
+  static constexpr double kUnsurveyedSigma_m = 0.10;
+  static constexpr int kRepeatsToBelieve = 3;
+  static constexpr std::size_t kMostBeacons = 4096;  ///< beyond it unknown beacons are dropped (kFull)
+
   struct Entry {
     Beacon beacon;
     bool in_site_file = false;
-    bool conflict = false;               ///< site file and announcement disagree by more than 3 sigma: not used
-    std::optional<Announcement> last;    ///< empty: never heard
+    bool conflict = false;             ///< with the site file or with its own earlier word: not used
+    std::optional<Announcement> last;  ///< heard in time, agreeing or not; empty: never heard
     std::uint64_t heard = 0;
+    int repeats = 0;  ///< announcements in a row that agree with one another
   };
 
   explicit BeaconTable(const Site& site);
@@ -29,10 +44,13 @@ class BeaconTable {
   /// Counts a frame that the decoder refused.
   void count(IrDrop reason) { drops_.add(reason); }
 
-  /// The beacons in force: all that are known and not in conflict.
+  /// The beacons in force: all that are known and not in conflict. Ascending by id.
   std::vector<Beacon> beacons() const;
   /// Grows with each change of beacons().
   std::uint64_t revision() const { return revision_; }
+
+  /// The beacons in force with an announcement at most `max_age` from `now`, before or after. Ascending.
+  std::vector<BeaconId> heard(Stamp now, Duration max_age) const;
 
   const std::map<BeaconId, Entry>& entries() const { return entries_; }
   const DropCounts<IrDrop>& drops() const { return drops_; }
@@ -42,10 +60,16 @@ class BeaconTable {
   void reset_time();
 
  private:
+  std::optional<IrDrop> judge(const Announcement& announcement);
+  std::optional<IrDrop> compare_with_site(Entry& entry, const Announcement& announcement);
+  std::optional<IrDrop> compare_with_past(Entry& entry, const Announcement& announcement);
+  void set_conflict(Entry& entry, bool conflict);
+  void learn(Entry& entry, const Announcement& announcement);
+
   std::map<BeaconId, Entry> entries_;
   DropCounts<IrDrop> drops_;
   std::uint64_t accepted_ = 0, revision_ = 0;
-  Link link_;
+  SuperframeClock clock_;
 };
 
 }  // namespace lodestar

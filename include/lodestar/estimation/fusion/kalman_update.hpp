@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <array>
+
+#include "lodestar/estimation/fusion/error_state.hpp"
+
+namespace lodestar::fusion {
+
+/// What a measurement model says at a state: residual z [-] h(x), its Jacobians by the error vector, its covariance.
+template <int N>
+struct Innovation {
+  static constexpr int kRows = N;
+  struct OffsetBlock {
+    int index = 0;  ///< of the source offset
+    Eigen::Matrix<double, N, 3> H = Eigen::Matrix<double, N, 3>::Zero();
+  };
+  Eigen::Matrix<double, N, 1> residual = Eigen::Matrix<double, N, 1>::Zero();
+  Eigen::Matrix<double, N, kCore> H = Eigen::Matrix<double, N, kCore>::Zero();
+  std::array<OffsetBlock, 2> offsets;
+  int offset_count = 0;
+  Eigen::Matrix<double, N, N> R = Eigen::Matrix<double, N, N>::Zero();
+  double inflation = 1;  ///< of R in the update, not in the gate: for noise that is not white from sample to sample
+};
+
+template <int N>
+Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N> covariance_times_jacobian(const Covariance& P,
+                                                                                   const Innovation<N>& m) {
+  Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N> PHt = P.leftCols<kCore>().lazyProduct(m.H.transpose());
+  for (int i = 0; i < m.offset_count; ++i)
+    PHt += P.middleCols<3>(kCore + 3 * m.offsets[i].index).lazyProduct(m.offsets[i].H.transpose());
+  return PHt;
+}
+
+template <int N, class PHt>
+Eigen::Matrix<double, N, N> jacobian_times(const Innovation<N>& m, const PHt& X) {
+  Eigen::Matrix<double, N, N> HX = m.H * X.template topRows<kCore>();
+  for (int i = 0; i < m.offset_count; ++i)
+    HX += m.offsets[i].H * X.template middleRows<3>(kCore + 3 * m.offsets[i].index);
+  return HX;
+}
+
+/// The squared distance (NIS) of the residual with P and R: what a chi-square gate of N degrees of freedom judges.
+template <int N>
+double squared_distance(const Covariance& P, const Innovation<N>& m) {
+  const Eigen::Matrix<double, N, N> S = jacobian_times(m, covariance_times_jacobian(P, m)) + m.R;
+  return m.residual.dot(S.llt().solve(m.residual));
+}
+
+/// Kalman update. The covariance is Joseph's form multiplied out,
+/// P - K H P - P H^T K^T + K S K^T = P - K B^T - B K^T with B = P H^T - K S / 2, which keeps its second-order
+/// insensitivity to errors of K at the cost of one product of rank 2 N.
+template <int N>
+void correct(FilterState& state, const Innovation<N>& m) {
+  const auto PHt = covariance_times_jacobian(state.P, m);
+  const Eigen::Matrix<double, N, N> S = jacobian_times(m, PHt) + m.inflation * m.R;
+  using Tall = Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N>;
+  const Tall K = S.llt().solve(PHt.transpose()).transpose();
+  const Tall B = PHt - 0.5 * K * S;
+  state.P -= K.lazyProduct(B.transpose());
+  state.P -= B.lazyProduct(K.transpose());
+  add_error(state, K * m.residual);
+}
+
+/// Takes the rounding's asymmetry off.
+void symmetrize(Covariance& P);
+
+}  // namespace lodestar::fusion

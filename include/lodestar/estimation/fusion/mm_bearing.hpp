@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "lodestar/base/measurement/bearing.hpp"
+#include "lodestar/estimation/fusion/kalman_update.hpp"
+#include "lodestar/estimation/fusion/rig.hpp"
+
+namespace lodestar::fusion {
+
+/// Vector from the camera to the beacon, offset included, in camera_optical_frame (m).
+Eigen::Vector3d beacon_in_camera(const CoreState& x, const Eigen::Vector3d& beacon_map, const Rig& rig);
+
+/// Direction to a named beacon: residual in the plane tangent to the predicted direction (rad), 2 degrees of freedom,
+/// by pose, mount and the beacon's offset. R is the white share of the bearing's covariance. None when measured and
+/// predicted direction are more than 60 deg apart, or the beacon is at the camera.
+std::optional<Innovation<2>> bearing_innovation(const CoreState& x, const BeaconBearing& bearing,
+                                                const Eigen::Vector3d& offset_map, int offset_index, const Rig& rig,
+                                                double white_share);
+
+}  // namespace lodestar::fusion

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+
+#include "lodestar/base/measurement/motion.hpp"
+#include "lodestar/estimation/fusion/error_state.hpp"
+#include "lodestar/estimation/fusion/pose_filter_params.hpp"
+
+namespace lodestar::fusion {
+
+constexpr double kGravity_m_s2 = 9.80665;  ///< along -z of map; its local difference goes into the accelerometer bias
+
+/// The part of the error vector that a step reads (up to the yaw rate's scale) and the part that it writes.
+constexpr int kStepReads = kMount;
+constexpr int kStepWrites = kGyroBias;
+
+/// Error after a step by the error before it, and the noise that the step adds.
+struct Transition {
+  Eigen::Matrix<double, kStepWrites, kStepReads> F = Eigen::Matrix<double, kStepWrites, kStepReads>::Zero();
+  Eigen::Matrix<double, kStepWrites, kStepWrites> Q = Eigen::Matrix<double, kStepWrites, kStepWrites>::Zero();
+};
+
+/// Spectral densities of an inertial step's noise.
+struct InertialNoise {
+  double gyro_rad2_s = 0;          ///< (rad/s)^2 / Hz
+  double accelerometer_m2_s3 = 0;  ///< (m/s^2)^2 / Hz
+};
+
+/// Strapdown step over dt with the mean angular velocity and specific force of the step, as measured (biases in them).
+/// Second order in dt. Source: J. Sola, Quaternion kinematics for the error-state Kalman filter, 2017, section 7
+/// (globally-defined angular errors).
+Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_rad_s,
+                         const Eigen::Vector3d& specific_force_m_s2, double dt_s, const InertialNoise& noise);
+
+/// Spectral densities and the floor of a step without inertial sensor.
+struct PlanarNoise {
+  double yaw_rate_rad2_s = 0;
+  double acceleration_m2_s3 = 0;  ///< along and across
+  double vertical_m2_s3 = 0;
+  double tilt_kept = 1;       ///< of roll and pitch, over the step: the floor's tilt is forgotten
+  double tilt_sigma_rad = 0;  ///< of the floor
+};
+
+/// Constant-velocity step over dt on an arc of the wheels' yaw rate (its scale in it).
+Transition move_planar(CoreState& x, double yaw_rate_rad_s, double dt_s, const PlanarNoise& noise);
+
+/// Takes the state to a stamp (not before its own): by the inertial sensor while it is heard, else by the wheels, else
+/// by constant velocity.
+/// @param next_imu the inertial sample that follows, where known: the input is interpolated towards it
+void advance(FilterState& state, Stamp to, const ImuSample* next_imu, const PoseFilterParams& params);
+
+/// Takes the state to a stamp by constant velocity and turn: for instants that no motion sample covers.
+void extrapolate(FilterState& state, Stamp to, const PoseFilterParams& params);
+
+/// Takes an inertial sample into force at the state's stamp.
+void take_imu(FilterState& state, const ImuSample& sample, const PoseFilterParams& params);
+
+}  // namespace lodestar::fusion

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <dynamic_reconfigure/server.h>
+#include <image_transport/image_transport.h>
+#include <nodelet/nodelet.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "lodestar/BeaconDetectionConfig.h"
+#include "lodestar/line/localization_line.hpp"
+#include "lodestar/ros/nodelets/beacon_input.hpp"
+#include "lodestar/ros/nodelets/camera_input.hpp"
+#include "lodestar/ros/nodelets/estimate_input.hpp"
+#include "lodestar/ros/nodelets/frame_rate.hpp"
+#include "lodestar/ros/nodelets/motion_input.hpp"
+#include "lodestar/ros/nodelets/stage_edge.hpp"
+
+namespace lodestar {
+
+/// `camera/image_raw` in, `beacons/sightings` out: DetectionStage as a nodelet (docs/nodes/beacon_detection.md).
+class BeaconDetectionNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override;
+  void start_inputs(ros::NodeHandle& nh);
+  void tune(const BeaconDetectionConfig& config);
+  void make_stage();
+  void take_image(const sensor_msgs::ImageConstPtr& message);
+  void process(const Image& image);
+  void report(Health::Status& status);
+  void reset();
+
+  std::unique_ptr<StageEdge> edge_;
+  std::unique_ptr<DetectionStage> stage_;  ///< none until the frame rate is known
+  std::unique_ptr<CameraInput> camera_;
+  std::unique_ptr<BeaconInput> beacons_;
+  std::unique_ptr<MotionInput> motion_;
+  std::unique_ptr<EstimateInput> estimate_input_;
+  std::unique_ptr<dynamic_reconfigure::Server<BeaconDetectionConfig>> tuning_;
+  BeaconDetectionConfig config_;
+  StreamWatch* image_watch_ = nullptr;
+  StreamWatch* sightings_watch_ = nullptr;
+  int camera_revision_ = 0;
+  FrameRateEstimate rate_;
+  std::optional<double> frame_rate_hz_;
+  std::deque<Image> waiting_;  ///< for the frame rate
+  Duration heard_for_{};
+  std::size_t last_sightings_ = 0, last_named_ = 0;
+  ros::Publisher sightings_;
+  image_transport::Subscriber images_;
+};
+
+}  // namespace lodestar

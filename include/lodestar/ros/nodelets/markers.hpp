@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <set>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "lodestar/base/geometry/rigid_transform.hpp"
+#include "lodestar/sensing/irlink/beacon_table.hpp"
+
+namespace lodestar {
+
+/// What rviz draws of the line, in the header's frame (map). Each function gives whole namespaces: drawn anew, they
+/// replace what was there.
+
+/// The floor under all beacons, with a 1 m grid, thicker each 5 m.
+visualization_msgs::MarkerArray floor_markers(const std_msgs::Header& header,
+                                              const std::map<BeaconId, BeaconTable::Entry>& beacons);
+
+/// Each beacon with its id: bright in use, pale idle, red in conflict with the site file.
+visualization_msgs::MarkerArray beacon_markers(const std_msgs::Header& header,
+                                               const std::map<BeaconId, BeaconTable::Entry>& beacons,
+                                               const std::set<BeaconId>& in_use);
+
+/// A line from the camera to each beacon in use.
+visualization_msgs::Marker bearing_marker(const std_msgs::Header& header, const Eigen::Vector3d& camera_map,
+                                          const std::map<BeaconId, BeaconTable::Entry>& beacons,
+                                          const std::set<BeaconId>& in_use);
+
+/// A forklift that stands at T_map_base.
+visualization_msgs::MarkerArray truck_markers(const std_msgs::Header& header, const RigidTransform& T_map_base);
+
+}  // namespace lodestar

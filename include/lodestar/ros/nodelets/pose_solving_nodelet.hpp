@@ -1,0 +1,35 @@
+#pragma once
+
+#include <nodelet/nodelet.h>
+
+#include <memory>
+
+#include "lodestar/BeaconSightingArray.h"
+#include "lodestar/line/pose_stage.hpp"
+#include "lodestar/ros/nodelets/beacon_input.hpp"
+#include "lodestar/ros/nodelets/camera_input.hpp"
+#include "lodestar/ros/nodelets/motion_input.hpp"
+#include "lodestar/ros/nodelets/stage_edge.hpp"
+
+namespace lodestar {
+
+/// `beacons/sightings` in, `beacons/fix` out: PoseStage as a nodelet (docs/nodes/pose_solving.md).
+class PoseSolvingNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override;
+  void take_sightings(const BeaconSightingArrayConstPtr& message);
+  void reset();
+
+  std::unique_ptr<StageEdge> edge_;
+  std::unique_ptr<PoseStage> stage_;
+  std::unique_ptr<CameraInput> camera_;
+  std::unique_ptr<BeaconInput> beacons_;
+  std::unique_ptr<MotionInput> motion_;
+  StreamWatch* sightings_watch_ = nullptr;
+  StreamWatch* fix_watch_ = nullptr;
+  int camera_revision_ = 0;
+  ros::Publisher fix_;
+  ros::Subscriber sightings_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lodestar/base/geometry/rigid_transform.hpp"
+#include "lodestar/base/measurement/motion.hpp"
+
+namespace lodestar {
+
+/// How the camera moves: gyro and wheel odometry integrated between instants. Roll and pitch rates come from the gyro
+/// alone; without a gyro the yaw rate is the wheels'. What is newer than the newest sample is extrapolated with it.
+class CameraMotion {
+ public:
+  /// @param buffer_s how far back motions can be asked for
+  explicit CameraMotion(double buffer_s = 3.0);
+
+  void set_mount(const RigidTransform& T_base_camera);
+
+  /// Samples with NaN, or not newer than the one before of the same kind, are ignored.
+  void add_imu(const ImuSample& sample);
+  void add_odometry(const OdometrySample& sample);
+  void reset();
+
+  /// For each instant (ascending, the last is `now`): camera coordinates at `now` to camera coordinates then.
+  /// Identities where nothing is known of the motion (a camera alone).
+  std::vector<RigidTransform> T_then_now(const std::vector<Stamp>& instants) const;
+
+ private:
+  struct Rate {
+    Stamp stamp;
+    Eigen::Vector3d value;
+  };
+  static void append(std::deque<Rate>& rates, Stamp stamp, const Eigen::Vector3d& value, double buffer_s);
+  static Eigen::Vector3d rate_at(const std::deque<Rate>& rates, Stamp stamp);
+  RigidTransform T_base_before_base_after(Stamp before, Stamp after) const;
+
+  double buffer_s_;
+  RigidTransform T_base_camera_ = RigidTransform::Identity();
+  std::deque<Rate> angular_, yaw_, linear_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "lodestar/base/common/ids.hpp"
+#include "lodestar/base/measurement/announcement.hpp"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
+
+namespace lodestar {
+
+/// Whether the superframe counter of a frame moves forward with time. Model: docs/math/irlink.md.
+///
+/// - In phase: between the newest accepted frame and this one, counter and slot tell the same time as the stamps, to
+///   within one superframe and 200 ppm (the beacons' clock and the receiver's). Else kSuperframe.
+/// - A beacon's own counter grows: the same frame twice is kSuperframe.
+/// - A frame older than the newest by more than one superframe is kStamp.
+/// - A clock that was set, or beacons that were started anew: five refused frames in a row that are in phase with one
+///   another (none accepted in between) are the new phase; the fifth is accepted. On a site with a key the counter
+///   must lie ahead of the newest, too: old frames cannot be replayed there, however many.
+///
+/// The counter wraps around at 2^32.
+class SuperframeClock {
+ public:
+  static constexpr int kFramesToLearn = 5;
+
+  explicit SuperframeClock(const Link& link);
+
+  /// Takes the frame's time as the newest, or says why not.
+  std::optional<IrDrop> accept(const Announcement& announcement);
+
+  /// Forgets everything: the next frame is believed.
+  void reset();
+
+ private:
+  struct Instant {
+    Stamp stamp;
+    std::uint32_t superframe;
+    int slot;
+  };
+  bool in_phase(const Instant& reference, const Instant& instant) const;
+  bool learn(const Instant& instant);
+  void take(const Instant& instant, BeaconId beacon);
+
+  double slot_s_, superframe_s_;
+  bool has_key_;
+  std::optional<Instant> newest_;
+  std::map<BeaconId, std::uint32_t> superframes_;  ///< the last of each beacon
+  std::optional<Instant> refused_;                 ///< the last frame out of phase
+  int refused_run_ = 0;                            ///< how many of those are in phase with one another
+};
+
+}  // namespace lodestar

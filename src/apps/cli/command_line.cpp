@@ -1,0 +1,32 @@
+#include "cli/command_line.hpp"
+
+#include <iostream>
+
+namespace lodestar {
+
+namespace po = boost::program_options;
+
+int run_tool(int argc, char** argv, const std::string& usage, po::options_description options,
+             const std::function<int(const po::variables_map&)>& job) {
+  options.add_options()("help,h", "show this and stop");
+  po::variables_map values;
+  try {
+    po::store(po::parse_command_line(argc, argv, options), values);
+    if (values.count("help")) {
+      std::cout << usage << "\n" << options;
+      return 0;
+    }
+    po::notify(values);
+  } catch (const po::error& error) {
+    std::cerr << error.what() << " (--help shows the options)\n";
+    return 2;
+  }
+  try {
+    return job(values);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+}
+
+}  // namespace lodestar

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include <boost/program_options.hpp>
+
+namespace lodestar {
+
+/// Something that the user can mend; shown as one line, without a trace.
+struct UserError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Parses the command line, answers --help, and runs `job`. Errors go to standard error.
+/// @param usage what the program does, its usage line and examples; printed above the options
+/// @return the exit code: job's own, 2 for a wrong command line, 1 for a UserError or another exception
+int run_tool(int argc, char** argv, const std::string& usage, boost::program_options::options_description options,
+             const std::function<int(const boost::program_options::variables_map&)>& job);
+
+}  // namespace lodestar

@@ -1,0 +1,261 @@
+// replay: the optical line over a recording, with the same core objects as the nodelets.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "cli/command_line.hpp"
+#include "cli/progress_bar.hpp"
+#include "lodestar/line/localization_line.hpp"
+#include "lodestar/ros/bag/recording.hpp"
+
+namespace lodestar {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr char kUsage[] =
+    "replay - run the localization over a recorded bag, without a roscore and faster than real time\n"
+    "\n"
+    "Usage: replay --site S.yaml --bag IN.bag --out EST.csv [--vehicle V.yaml] [--out-bag OUT.bag]\n"
+    "\n"
+    "Examples:\n"
+    "  replay --site config/site_hall.yaml --bag drive.bag --out drive.csv\n"
+    "  replay --site hall.yaml --bag drive.bag --out drive.csv --vehicle truck.yaml --out-bag result.bag\n"
+    "  evaluate --truth drive.bag --estimate drive.csv --plot drive.png\n"
+    "\n"
+    "EST.csv gets one row for each camera frame after start-up, from data received by then alone.\n";
+
+template <class T>
+T value_or_throw(Result<T, Faults> result) {
+  if (!result) throw UserError(describe(result.error()) + "Mend the file, then start again.");
+  return std::move(result).value();
+}
+
+/// The camera's rate from the stamps of its first frames; the records that were read for it are kept.
+struct Opening {
+  std::deque<Record> records;
+  double frame_rate_hz = 0;
+};
+
+Opening read_opening(RecordingReader& reader) {
+  constexpr std::size_t kFrames = 21;
+  Opening opening;
+  std::vector<Stamp> stamps;
+  while (stamps.size() < kFrames) {
+    auto record = reader.next();
+    if (!record) break;
+    if (const auto* image = std::get_if<Image>(&record->content)) stamps.push_back(image->stamp);
+    opening.records.push_back(std::move(*record));
+  }
+  std::vector<double> periods_s;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    if (stamps[i] > stamps[i - 1]) periods_s.push_back(seconds(stamps[i] - stamps[i - 1]));
+  }
+  if (periods_s.empty()) return opening;
+  const auto middle = periods_s.begin() + static_cast<std::ptrdiff_t>(periods_s.size() / 2);
+  std::nth_element(periods_s.begin(), middle, periods_s.end());
+  opening.frame_rate_hz = 1.0 / *middle;
+  return opening;
+}
+
+class EstimateCsv {
+ public:
+  explicit EstimateCsv(const std::string& path) : file_(path) {
+    if (!file_) throw UserError(path + ": cannot be written; choose another --out.");
+    file_ << "stamp_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,sigma_x_m,sigma_y_m,sigma_yaw_rad,beacons_used,mode\n";
+  }
+
+  void add(const StateEstimate& estimate, std::size_t beacons_used, FilterMode mode) {
+    const auto ns = estimate.stamp.time_since_epoch().count();
+    const auto& t = estimate.T_map_base.translation();
+    const auto rpy = roll_pitch_yaw(estimate.T_map_base.linear());
+    char row[320];
+    std::snprintf(row, sizeof row, "%lld.%09lld,%.6f,%.6f,%.6f,%.7f,%.7f,%.7f,%.6f,%.6f,%.7f,%zu,%s\n",
+                  static_cast<long long>(ns / 1000000000), static_cast<long long>(ns % 1000000000), t.x(), t.y(), t.z(),
+                  rpy.roll_rad, rpy.pitch_rad, rpy.yaw_rad, std::sqrt(estimate.covariance(0, 0)),
+                  std::sqrt(estimate.covariance(1, 1)), std::sqrt(estimate.covariance(5, 5)), beacons_used, name(mode));
+    file_ << row;
+  }
+
+ private:
+  std::ofstream file_;
+};
+
+/// What went through, for the summary at the end.
+struct Tally {
+  std::size_t frames = 0, sightings = 0, named = 0, fixes = 0, rows = 0;
+};
+
+/// Feeds the line with records and writes down what it says.
+class Replay {
+ public:
+  Replay(LocalizationLine& line, const CameraMount& mount, EstimateCsv& csv, RecordingWriter* out_bag)
+      : line_(line), mount_(mount), csv_(csv), out_bag_(out_bag) {}
+
+  void feed(const Record& record) {
+    received_ = record.received;
+    std::visit([this](const auto& content) { take(content); }, record.content);
+  }
+
+  const Tally& tally() const { return tally_; }
+
+ private:
+  void take(const CameraIntrinsics& intrinsics) {
+    auto model = CameraModel::create(intrinsics);
+    if (!model) throw UserError("camera_info: " + model.error());
+    mount_.model = std::move(model).value();
+    line_.set_camera(mount_);
+  }
+  void take(const ImuSample& sample) { line_.add_imu(sample); }
+  void take(const OdometrySample& sample) {
+    line_.add_odometry(sample);
+    odometry_ = sample;
+  }
+  void take(const RawIrFrame& frame) {
+    const auto announcement = line_.add_ir_frame(frame);
+    if (announcement && out_bag_) out_bag_->write(received_, *announcement);
+  }
+  void take(const Image& image) {
+    const auto outcome = line_.process(image);
+    if (!outcome) return;
+    ++tally_.frames;
+    std::size_t named = 0;
+    for (const Sighting& sighting : outcome->sightings.sightings) named += sighting.beacon.has_value();
+    tally_.sightings += outcome->sightings.sightings.size();
+    tally_.named += named;
+    tally_.fixes += outcome->fix.has_value();
+    if (outcome->estimate) {
+      csv_.add(*outcome->estimate, named, line_.fusion().filter().mode());
+      ++tally_.rows;
+    }
+    if (out_bag_) write(*outcome);
+  }
+  void take(const TruthPose&) {}
+  void take(const TruthCameraPose&) {}
+
+  void write(const LocalizationLine::Outcome& outcome) {
+    out_bag_->write(received_, outcome.sightings);
+    if (outcome.fix) out_bag_->write(received_, *outcome.fix);
+    if (!outcome.estimate) return;
+    out_bag_->write(received_, *outcome.estimate);
+    if (!odometry_) return;
+    RigidTransform T_odom_base = RigidTransform::Identity();
+    T_odom_base.linear() = rotation({0, 0, odometry_->yaw_odom_rad});
+    T_odom_base.translation() = odometry_->position_odom_m;
+    if (const auto then = line_.fusion().filter().estimate_at(odometry_->stamp)) {
+      out_bag_->write(received_, "map", "odom", odometry_->stamp, then->T_map_base * T_odom_base.inverse());
+    }
+  }
+
+  LocalizationLine& line_;
+  CameraMount mount_;
+  EstimateCsv& csv_;
+  RecordingWriter* out_bag_;
+  std::optional<OdometrySample> odometry_;
+  Stamp received_;
+  Tally tally_;
+};
+
+template <class Reason>
+void print_drops(const char* what, const DropCounts<Reason>& drops) {
+  if (drops.total() == 0) return;
+  std::cerr << what << ":";
+  drops.each([](const char* reason, std::uint64_t count) {
+    if (count > 0) std::cerr << "  " << reason << " " << count;
+  });
+  std::cerr << "\n";
+}
+
+void print_summary(const Tally& tally, const LocalizationLine& line, const RecordingReader& reader, double wall_s) {
+  const double recorded_s = seconds(reader.end() - reader.begin());
+  std::cerr << std::fixed << std::setprecision(1) << tally.frames << " frames, " << tally.sightings << " sightings, "
+            << tally.named << " named, " << tally.fixes << " fixes, " << tally.rows << " rows; " << recorded_s
+            << " s recorded, " << wall_s << " s to replay (" << recorded_s / wall_s << " x real time)\n";
+  print_drops("frames dropped", line.detection().drops());
+  print_drops("IR frames dropped", line.beacon_table().drops());
+  print_drops("no fix", line.pose().refusals());
+  print_drops("not used by the filter", line.fusion().filter().drops());
+  for (const auto& [where, count] : reader.drops()) {
+    std::cerr << where.first << ": " << where.second << " " << count << "\n";
+  }
+}
+
+int replay(const po::variables_map& options) {
+  const auto started = std::chrono::steady_clock::now();
+  const auto site_path = options["site"].as<std::string>();
+  const Site site = value_or_throw(load_site(site_path));
+  const Vehicle vehicle =
+      options.count("vehicle") ? value_or_throw(load_vehicle(options["vehicle"].as<std::string>())) : Vehicle();
+
+  RecordingReaderParams reading;
+  reading.T_base_imu = vehicle.T_base_imu;
+  reading.camera_time_offset_s = vehicle.camera_time_offset_s;
+  const auto bag_path = options["bag"].as<std::string>();
+  RecordingReader reader(bag_path, reading);
+
+  CameraMount mount;
+  if (const auto T_base_camera = vehicle.T_base_camera ? vehicle.T_base_camera : reader.T_base_camera()) {
+    mount.T_base_camera = *T_base_camera;
+  } else {
+    throw UserError(bag_path + ": /tf_static holds no base_link -> camera_optical_frame; give the mount in --vehicle.");
+  }
+
+  Opening opening = read_opening(reader);
+  const double rate_hz = vehicle.camera_rate_hz.value_or(opening.frame_rate_hz);
+  if (rate_hz <= 0) throw UserError(bag_path + ": fewer than two images on /camera/image_raw; nothing to replay.");
+  const Faults tones = check_tones(site, {rate_hz, vehicle.mains_hz}, site_path);
+  if (!tones.empty()) throw UserError(describe(tones) + "Mend the file, then start again.");
+
+  EstimateCsv csv(options["out"].as<std::string>());
+  std::unique_ptr<RecordingWriter> out_bag;
+  if (options.count("out-bag")) {
+    RecordingWriterParams writing;
+    writing.tone_table_hz = site.tone_table_hz;
+    out_bag = std::make_unique<RecordingWriter>(options["out-bag"].as<std::string>(), writing);
+  }
+
+  LocalizationLine line(site, line_params(site, vehicle, rate_hz));
+  if (const auto T_base_imu = vehicle.T_base_imu ? vehicle.T_base_imu : reader.mount("imu_link")) {
+    line.set_imu(T_base_imu->translation());
+  }
+  Replay replay(line, mount, csv, out_bag.get());
+  {
+    ProgressBar bar("replay");
+    for (const Record& record : opening.records) replay.feed(record);
+    opening.records.clear();
+    while (const auto record = reader.next()) {
+      replay.feed(*record);
+      bar.show(reader.progress());
+    }
+  }
+  print_summary(replay.tally(), line, reader,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
+  return 0;
+}
+
+}  // namespace
+}  // namespace lodestar
+
+int main(int argc, char** argv) {
+  namespace po = boost::program_options;
+  po::options_description options("Options");
+  options.add_options()
+      ("site", po::value<std::string>()->required(), "site file (YAML)")
+      ("bag", po::value<std::string>()->required(), "recording to replay")
+      ("out", po::value<std::string>()->required(), "estimates, CSV")
+      ("vehicle", po::value<std::string>(), "vehicle file (YAML); without it mounts come from /tf_static")
+      ("out-bag", po::value<std::string>(), "sightings, fixes, poses and tf as a bag");
+  return lodestar::run_tool(argc, argv, lodestar::kUsage, options, lodestar::replay);
+}

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lodestar/estimation/fusion/corrections.hpp"
+#include "lodestar/estimation/fusion/kalman_update.hpp"
+#include "lodestar/estimation/fusion/mm_standstill.hpp"
+#include "lodestar/estimation/fusion/mm_wheels.hpp"
+
+namespace lodestar::fusion {
+namespace {
+
+constexpr double kStandFor_s = 0.2;     ///< a truck stands when all has been quiet for so long
+constexpr double kLongestSlip_s = 2.0;  ///< then it is the state that is wrong
+constexpr double kWidenVelocity_m_s = 0.3;
+
+bool imu_heard(const FilterState& state, const PoseFilterParams& params) {
+  return state.inputs.imu_stamp && seconds(state.stamp - *state.inputs.imu_stamp) <= params.imu_hold_s;
+}
+
+bool stands(const FilterState& state, const PoseFilterParams& params) {
+  const Stamp quiet_since = state.stamp - from_seconds(kStandFor_s);
+  return state.inputs.wheels_moved < quiet_since &&
+         (!imu_heard(state, params) || state.inputs.gyro_moved < quiet_since);
+}
+
+/// Gated; a state that has contradicted the wheels for too long is widened until it listens.
+bool use(FilterState& state, const Innovation<3>& m, const Gates& gates) {
+  std::optional<Stamp>& since = state.health.wheels_rejected_since;
+  if (squared_distance(state.P, m) <= gates.chi2_3) {
+    correct(state, m);
+    since.reset();
+    return true;
+  }
+  if (!since) since = state.stamp;
+  if (seconds(state.stamp - *since) > kLongestSlip_s)
+    state.P.diagonal().segment<3>(kVelocity).array() += kWidenVelocity_m_s * kWidenVelocity_m_s;
+  return false;
+}
+
+}  // namespace
+
+void take_wheels(FilterState& state, const OdometrySample& sample, const PoseFilterParams& params) {
+  Inputs& in = state.inputs;
+  if (in.wheels) {
+    const double interval_s = seconds(sample.stamp - in.wheels->stamp);
+    if (interval_s < 1.0) in.wheels_interval_s = std::max(interval_s, 1e-3);
+  }
+  const bool moving = sample.velocity_m_s.cwiseAbs().maxCoeff() > params.still_velocity_m_s ||
+                      std::abs(sample.yaw_rate_rad_s) > params.still_rate_rad_s;
+  if (moving || !in.wheels) in.wheels_moved = sample.stamp;
+  in.wheels = sample;
+}
+
+Tally correct_with_wheels(FilterState& state, const OdometrySample& sample, const Rig& rig, const Gates& gates,
+                          const PoseFilterParams& params) {
+  take_wheels(state, sample, params);
+  const bool imu = imu_heard(state, params);
+  const Eigen::Vector3d angular_velocity =
+      imu ? state.inputs.angular_velocity_rad_s
+          : Eigen::Vector3d(state.gyro_bias + Eigen::Vector3d(0, 0, sample.yaw_rate_rad_s));
+  bool used = false;
+  if (stands(state, params)) {
+    used = use(state, standing_velocity_innovation(state), gates);
+    if (used && imu) {
+      const Innovation<3> gyro = standing_gyro_innovation(state, angular_velocity, params);
+      if (squared_distance(state.P, gyro) <= gates.chi2_3) correct(state, gyro);
+    }
+  } else {
+    Innovation<3> wheels = wheels_innovation(state, sample, angular_velocity, rig, params);
+    wheels.inflation = std::max(1.0, params.odometry_correlation_s / state.inputs.wheels_interval_s);
+    used = use(state, wheels, gates);
+  }
+  return used ? Tally{1, 0, 0} : Tally{0, 1, 0};
+}
+
+}  // namespace lodestar::fusion

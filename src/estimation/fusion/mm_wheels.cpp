@@ -1,0 +1,36 @@
+#include "lodestar/estimation/fusion/mm_wheels.hpp"
+
+#include "lodestar/base/geometry/rigid_transform.hpp"
+
+namespace lodestar::fusion {
+
+Eigen::Vector3d velocity_base(const CoreState& x, const Eigen::Vector3d& measured_angular_velocity_rad_s,
+                              const Rig& rig) {
+  return x.q_map_base.conjugate() * x.velocity -
+         (measured_angular_velocity_rad_s - x.gyro_bias).cross(rig.imu_position_base);
+}
+
+Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample,
+                                const Eigen::Vector3d& measured_angular_velocity_rad_s, const Rig& rig,
+                                const PoseFilterParams& params) {
+  const Eigen::Matrix3d R_base_map = x.q_map_base.conjugate().toRotationMatrix();
+  const Eigen::Vector3d v = velocity_base(x, measured_angular_velocity_rad_s, rig);
+  const Eigen::Vector3d scale(1.0 + x.wheel_scale, 1.0 + x.wheel_scale, 1.0);
+  const Eigen::Matrix3d D = scale.asDiagonal();
+
+  Innovation<3> m;
+  m.residual << sample.velocity_m_s.x() - scale.x() * v.x(), sample.velocity_m_s.y() - scale.y() * v.y(), -v.z();
+  m.H.block<3, 3>(0, kVelocity) = D * R_base_map;
+  m.H.block<3, 3>(0, kRotation) = D * R_base_map * skew(x.velocity);
+  m.H.block<3, 3>(0, kGyroBias) = -D * skew(rig.imu_position_base);
+  m.H.block<2, 1>(0, kWheelScale) = v.head<2>();
+
+  const double speed = sample.velocity_m_s.norm();
+  const double sideslip = params.sideslip_share * speed;
+  const double along = params.odometry_velocity_sigma_m_s;
+  const double up = params.vertical_velocity_sigma_m_s;
+  m.R.diagonal() << along * along, along * along + sideslip * sideslip, up * up;
+  return m;
+}
+
+}  // namespace lodestar::fusion

@@ -1,0 +1,86 @@
+#include "lodestar/estimation/fusion/start.hpp"
+
+#include "lodestar/base/geometry/rigid_transform.hpp"
+#include "lodestar/estimation/fusion/mm_wheels.hpp"
+
+namespace lodestar::fusion {
+namespace {
+
+constexpr double kFreshWheels_s = 0.5;
+constexpr double kAnyVelocity_m_s = 2.0;
+constexpr double kVerticalVelocity_m_s = 0.1;
+
+bool wheels_fresh(const FilterState& state) {
+  return state.inputs.wheels && seconds(state.stamp - state.inputs.wheels->stamp) < kFreshWheels_s;
+}
+
+Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params) {
+  const Inputs& in = state.inputs;
+  if (in.imu_stamp && seconds(state.stamp - *in.imu_stamp) <= params.imu_hold_s)
+    return in.angular_velocity_rad_s - state.gyro_bias;
+  if (wheels_fresh(state)) return {0, 0, in.wheels->yaw_rate_rad_s / (1.0 + state.yaw_rate_scale)};
+  return Eigen::Vector3d::Zero();
+}
+
+Eigen::Vector3d squared(double a, double b, double c) { return {a * a, b * b, c * c}; }
+
+void set_sigma(Covariance& P, int at, int length, double sigma) {
+  P.diagonal().segment(at, length).setConstant(sigma * sigma);
+}
+
+}  // namespace
+
+FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, const PoseFilterParams& params) {
+  FilterState state;
+  state.stamp = fix.stamp;
+  state.inputs = inputs;
+  state.health.last_optical = fix.stamp;
+  state.q_map_base = Eigen::Quaterniond(fix.T_map_base.linear()).normalized();
+  const Eigen::Matrix3d R_map_base = state.q_map_base.toRotationMatrix();
+  const Eigen::Vector3d lever_map = R_map_base * rig.imu_position_base;
+  state.position = fix.T_map_base.translation() + lever_map;
+
+  Eigen::Vector3d velocity_variance = squared(kAnyVelocity_m_s, kAnyVelocity_m_s, kVerticalVelocity_m_s);
+  if (wheels_fresh(state)) {
+    const Eigen::Vector2d v = inputs.wheels->velocity_m_s;
+    state.velocity =
+        R_map_base * (Eigen::Vector3d(v.x(), v.y(), 0) + angular_velocity(state, params).cross(rig.imu_position_base));
+    const double along = 2.0 * params.odometry_velocity_sigma_m_s + params.odometry_scale_sigma * v.norm();
+    velocity_variance = squared(along, along + params.sideslip_share * v.norm(), params.vertical_velocity_sigma_m_s);
+  }
+
+  // Errors of position and velocity follow from those of the fix's position and rotation.
+  Eigen::Matrix<double, 9, 6> J = Eigen::Matrix<double, 9, 6>::Zero();
+  J.block<3, 3>(kPosition, 0).setIdentity();
+  J.block<3, 3>(kPosition, 3) = -skew(lever_map);
+  J.block<3, 3>(kVelocity, 3) = -skew(state.velocity);
+  J.block<3, 3>(kRotation, 3).setIdentity();
+  state.P.topLeftCorner<9, 9>() = params.start_inflation * J * fix.covariance * J.transpose();
+  state.P.topLeftCorner<9, 9>().diagonal().array() += 1e-9;
+  state.P.block<3, 3>(kVelocity, kVelocity) += R_map_base * velocity_variance.asDiagonal() * R_map_base.transpose();
+  set_sigma(state.P, kGyroBias, 3, params.gyro_bias_rad_s);
+  set_sigma(state.P, kAccelerometerBias, 3, params.accelerometer_bias_m_s2);
+  set_sigma(state.P, kWheelScale, 2, params.odometry_scale_sigma);
+  set_sigma(state.P, kMount, 3, params.camera_mount_sigma_rad);
+  return state;
+}
+
+StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFilterParams& params) {
+  const Eigen::Matrix3d R_map_base = state.q_map_base.toRotationMatrix();
+  const Eigen::Vector3d lever_map = R_map_base * rig.imu_position_base;
+  StateEstimate out;
+  out.stamp = state.stamp;
+  out.T_map_base.linear() = R_map_base;
+  out.T_map_base.translation() = state.position - lever_map;
+  out.angular_velocity_rad_s = angular_velocity(state, params);
+  out.velocity_base_m_s = velocity_base(state, out.angular_velocity_rad_s + state.gyro_bias, rig);
+
+  Eigen::Matrix<double, 6, 9> J = Eigen::Matrix<double, 6, 9>::Zero();
+  J.block<3, 3>(0, kPosition).setIdentity();
+  J.block<3, 3>(0, kRotation) = skew(lever_map);
+  J.block<3, 3>(3, kRotation).setIdentity();
+  out.covariance = J * state.P.topLeftCorner<9, 9>() * J.transpose();
+  return out;
+}
+
+}  // namespace lodestar::fusion

@@ -1,0 +1,70 @@
+#include "lodestar/line/detection_stage.hpp"
+
+#include <algorithm>
+
+namespace lodestar {
+namespace {
+
+constexpr double kMinPlaneHeight_m = 0.5;
+constexpr double kMaxEstimateAge_s = 1.0;
+
+/// Height of the ceiling's plane above the camera; for a level truck where no pose is known. None without beacons.
+std::optional<double> plane_height(const std::vector<Beacon>& beacons, const RigidTransform& T_map_camera) {
+  if (beacons.empty()) return std::nullopt;
+  std::vector<double> heights_m;
+  for (const Beacon& beacon : beacons) heights_m.push_back(beacon.position_map.z());
+  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
+  return std::max(kMinPlaneHeight_m, *middle - T_map_camera.translation().z());
+}
+
+}  // namespace
+
+DetectionStage::DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer)
+    : detector_(detector), namer_(namer) {}
+
+void DetectionStage::set_camera(const CameraMount& camera) {
+  camera_ = camera;
+  detector_.set_camera(camera.model);
+  motion_.set_mount(camera.T_base_camera);
+}
+
+void DetectionStage::set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard) {
+  beacons_ = beacons;
+  heard_ = heard;
+}
+
+void DetectionStage::add_imu(const ImuSample& sample) { motion_.add_imu(sample); }
+void DetectionStage::add_odometry(const OdometrySample& sample) { motion_.add_odometry(sample); }
+void DetectionStage::set_estimate(const std::optional<StateEstimate>& estimate) { estimate_ = estimate; }
+
+std::optional<PoseEstimate> DetectionStage::predicted(Stamp stamp) const {
+  if (!estimate_ || std::abs(seconds(stamp - estimate_->stamp)) > kMaxEstimateAge_s) return std::nullopt;
+  PoseEstimate pose = *estimate_;
+  const double ahead_s = seconds(stamp - estimate_->stamp);
+  pose.stamp = stamp;
+  pose.T_map_base.translation() += estimate_->T_map_base.linear() * estimate_->velocity_base_m_s * ahead_s;
+  pose.T_map_base.linear() *= so3_exp(estimate_->angular_velocity_rad_s * ahead_s);
+  return pose;
+}
+
+Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {
+  const auto pose = predicted(image.stamp);
+  const RigidTransform T_map_base = pose ? pose->T_map_base : RigidTransform::Identity();
+  if (const auto height_m = plane_height(beacons_, T_map_base * camera_.T_base_camera)) {
+    detector_.set_plane_height(*height_m);
+  }
+  auto result = detector_.process(image, motion_);
+  if (!result) return result;
+  Sightings sightings = std::move(result).value();
+  namer_.name(sightings, beacons_, heard_, *camera_.model, camera_.T_base_camera, pose);
+  return sightings;
+}
+
+void DetectionStage::reset() {
+  detector_.reset();
+  motion_.reset();
+  estimate_.reset();
+}
+
+}  // namespace lodestar

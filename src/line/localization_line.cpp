@@ -1,0 +1,109 @@
+#include "lodestar/line/localization_line.hpp"
+
+namespace lodestar {
+namespace {
+
+/// How long a beacon counts as heard: a lost frame or two must not silence it.
+Duration heard_for(const Link& link) { return from_seconds(3.0 * link.slot_s * link.slot_count); }
+
+}  // namespace
+
+LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_rate_hz) {
+  LineParams params;
+  params.detector.tone_table_hz = site.tone_table_hz;
+  params.detector.window_frames =
+      vehicle.window_frames.value_or(window_frames(site.tone_table_hz, vehicle.camera_rate_hz.value_or(frame_rate_hz)));
+
+  params.solver.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
+
+  params.tilt.gyro_noise_rad_s = vehicle.gyro_noise_rad_s;
+  params.tilt.gyro_bias_rad_s = vehicle.gyro_bias_rad_s;
+  params.tilt.accelerometer_noise_m_s2 = vehicle.accelerometer_noise_m_s2;
+  params.tilt.accelerometer_bias_m_s2 = vehicle.accelerometer_bias_m_s2;
+
+  params.filter.gyro_noise_rad_s = vehicle.gyro_noise_rad_s;
+  params.filter.gyro_bias_rad_s = vehicle.gyro_bias_rad_s;
+  params.filter.accelerometer_noise_m_s2 = vehicle.accelerometer_noise_m_s2;
+  params.filter.accelerometer_bias_m_s2 = vehicle.accelerometer_bias_m_s2;
+  params.filter.odometry_velocity_sigma_m_s = vehicle.odometry_velocity_sigma_m_s;
+  params.filter.odometry_yaw_rate_sigma_rad_s = vehicle.odometry_yaw_rate_sigma_rad_s;
+  params.filter.odometry_scale_sigma = vehicle.odometry_scale_sigma;
+  params.filter.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
+
+  params.calibration_sigma_px = vehicle.calibration_sigma_px;
+  params.heard_for = heard_for(site.link);
+  return params;
+}
+
+LocalizationLine::LocalizationLine(const Site& site, const LineParams& params)
+    : heard_for_(params.heard_for),
+      decoder_(site.link, static_cast<int>(site.tone_table_hz.size())),
+      table_(site),
+      detection_(params.detector, params.namer),
+      pose_(params.solver, params.tilt, params.calibration_sigma_px),
+      fusion_(params.filter, params.calibration_sigma_px, params.use_sightings) {
+  share_beacons();
+}
+
+void LocalizationLine::set_camera(const CameraMount& camera) {
+  detection_.set_camera(camera);
+  pose_.set_camera(camera);
+  fusion_.set_camera(camera);
+}
+
+void LocalizationLine::set_imu(const Eigen::Vector3d& imu_position_base) { fusion_.set_imu(imu_position_base); }
+
+void LocalizationLine::add_imu(const ImuSample& sample) {
+  detection_.add_imu(sample);
+  pose_.add_imu(sample);
+  fusion_.add_imu(sample);
+}
+
+void LocalizationLine::add_odometry(const OdometrySample& sample) {
+  detection_.add_odometry(sample);
+  pose_.add_odometry(sample);
+  fusion_.add_odometry(sample);
+}
+
+Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const RawIrFrame& frame) {
+  auto announcement = decoder_.decode(frame);
+  if (!announcement) {
+    table_.count(announcement.error());
+    return announcement;
+  }
+  if (const auto reason = table_.accept(*announcement)) return *reason;
+  share_beacons();
+  return announcement;
+}
+
+void LocalizationLine::share_beacons() {
+  const auto beacons = table_.beacons();
+  pose_.set_beacons(beacons);
+  fusion_.set_beacons(beacons);
+}
+
+Result<LocalizationLine::Outcome, FrameDrop> LocalizationLine::process(const Image& image) {
+  detection_.set_beacons(table_.beacons(), table_.heard(image.stamp, heard_for_));
+  detection_.set_estimate(fusion_.filter().estimate());
+  auto sightings = detection_.process(image);
+  if (!sightings) return sightings.error();
+
+  Outcome outcome;
+  outcome.sightings = std::move(sightings).value();
+  if (const auto fix = pose_.process(outcome.sightings)) {
+    outcome.fix = *fix;
+    fusion_.add_fix(*fix);
+  }
+  fusion_.add_sightings(outcome.sightings);
+  outcome.estimate = fusion_.filter().estimate_at(image.stamp);
+  return outcome;
+}
+
+void LocalizationLine::reset() {
+  table_.reset_time();
+  detection_.reset();
+  pose_.reset();
+  fusion_.reset();
+}
+
+}  // namespace lodestar

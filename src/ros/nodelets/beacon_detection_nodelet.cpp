@@ -1,0 +1,122 @@
+#include "lodestar/ros/nodelets/beacon_detection_nodelet.hpp"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "lodestar/ros/convert/image.hpp"
+#include "lodestar/ros/convert/sightings.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
+
+namespace lodestar {
+
+namespace {
+constexpr int kImageQueue = 10;
+}  // namespace
+
+void BeaconDetectionNodelet::onInit() {
+  ros::NodeHandle& nh = getNodeHandle();
+  ParamReader reader(getPrivateNodeHandle());
+  config_ = BeaconDetectionConfig::__getDefault__();
+  const auto lowest = BeaconDetectionConfig::__getMin__();
+  const auto highest = BeaconDetectionConfig::__getMax__();
+  reader.number("false_alarms_per_hour", config_.false_alarms_per_hour,
+                {lowest.false_alarms_per_hour, highest.false_alarms_per_hour});
+  reader.number("code_margin_db", config_.code_margin_db, {lowest.code_margin_db, highest.code_margin_db});
+  edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "beacon detection", [this] { reset(); });
+  frame_rate_hz_ = edge_->vehicle().camera_rate_hz;
+
+  Health& health = edge_->health();
+  image_watch_ = &health.watch("image", Need::kRequired);
+  sightings_watch_ = &health.watch("sightings", Need::kRequired);
+  health.add_report([this](Health::Status& status) { report(status); });
+  sightings_ = nh.advertise<BeaconSightingArray>("beacons/sightings", 10);
+  tuning_ = std::make_unique<dynamic_reconfigure::Server<BeaconDetectionConfig>>(getPrivateNodeHandle());
+  tuning_->setCallback([this](BeaconDetectionConfig& config, std::uint32_t) { tune(config); });
+  start_inputs(nh);
+}
+
+void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
+  camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), edge_->health(), edge_->vehicle().T_base_camera);
+  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [](const auto&) {});
+  motion_ = std::make_unique<MotionInput>(
+      nh, *edge_,
+      [this](const ImuSample& sample) {
+        if (stage_) stage_->add_imu(sample);
+      },
+      [this](const OdometrySample& sample) {
+        if (stage_) stage_->add_odometry(sample);
+      });
+  estimate_input_ =
+      std::make_unique<EstimateInput>(nh, edge_->health(), edge_->map_frame(), [this](const StateEstimate& estimate) {
+        if (stage_) stage_->set_estimate(estimate);
+      });
+  if (frame_rate_hz_) make_stage();
+  image_transport::ImageTransport transport(nh);
+  images_ = transport.subscribe("camera/image_raw", kImageQueue, &BeaconDetectionNodelet::take_image, this,
+                                image_transport::TransportHints("raw", {}, getPrivateNodeHandle()));
+}
+
+void BeaconDetectionNodelet::tune(const BeaconDetectionConfig& config) {
+  config_ = config;
+  if (stage_) make_stage();
+}
+
+void BeaconDetectionNodelet::make_stage() {
+  LineParams params = line_params(edge_->site(), edge_->vehicle(), *frame_rate_hz_);
+  params.detector.false_alarms_per_hour = config_.false_alarms_per_hour;
+  params.detector.code.margin_db = config_.code_margin_db;
+  heard_for_ = params.heard_for;
+  stage_ = std::make_unique<DetectionStage>(params.detector, params.namer);
+  camera_revision_ = 0;
+}
+
+void BeaconDetectionNodelet::take_image(const sensor_msgs::ImageConstPtr& message) {
+  image_watch_->tick();
+  const auto image = image_from(message, edge_->vehicle().camera_time_offset_s);
+  if (!image) return edge_->health().drop(image.error());
+  if (!edge_->admit(message->header.stamp)) return;
+  if (stage_) return process(*image);
+
+  waiting_.push_back(*image);
+  if (waiting_.size() > FrameRateEstimate::kFrames) waiting_.pop_front();
+  frame_rate_hz_ = rate_.add(image->stamp);
+  if (!frame_rate_hz_) return;
+  NODELET_INFO("the camera sends %.2f frames a second", *frame_rate_hz_);
+  make_stage();
+  for (const Image& early : waiting_) process(early);
+  waiting_.clear();
+}
+
+void BeaconDetectionNodelet::process(const Image& image) {
+  const CameraMount* camera = camera_->get();
+  if (camera == nullptr) return;
+  if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
+  camera_revision_ = camera_->revision();
+  const BeaconTable& table = beacons_->table();
+  stage_->set_beacons(table.beacons(), table.heard(image.stamp, heard_for_));
+
+  const auto sightings = stage_->process(image);
+  if (!sightings) return;
+  sightings_.publish(sightings_message(*sightings, edge_->site().tone_table_hz, camera_->frame()));
+  sightings_watch_->tick();
+  last_sightings_ = sightings->sightings.size();
+  last_named_ = 0;
+  for (const Sighting& sighting : sightings->sightings) last_named_ += sighting.beacon ? 1 : 0;
+}
+
+void BeaconDetectionNodelet::report(Health::Status& status) {
+  status.addf("frame_rate_hz", "%.2f", frame_rate_hz_.value_or(0));
+  status.add("sightings in the last window", last_sightings_);
+  status.add("named in the last window", last_named_);
+  if (!stage_) return;
+  report_drops(stage_->drops(), status);
+}
+
+void BeaconDetectionNodelet::reset() {
+  if (stage_) stage_->reset();
+  beacons_->reset_time();
+  waiting_.clear();
+}
+
+}  // namespace lodestar
+
+PLUGINLIB_EXPORT_CLASS(lodestar::BeaconDetectionNodelet, nodelet::Nodelet)

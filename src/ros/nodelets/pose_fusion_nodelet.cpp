@@ -1,0 +1,147 @@
+#include "lodestar/ros/nodelets/pose_fusion_nodelet.hpp"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <nav_msgs/Odometry.h>
+
+#include <cmath>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "lodestar/line/localization_line.hpp"
+#include "lodestar/ros/convert/odometry.hpp"
+#include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/convert/sightings.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
+#include "lodestar/ros/convert/transform.hpp"
+
+namespace lodestar {
+
+namespace {
+constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends on the frame rate
+}
+
+void PoseFusionNodelet::onInit() {
+  ros::NodeHandle& nh = getNodeHandle();
+  ParamReader reader(getPrivateNodeHandle());
+  read_params(reader);
+  edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "pose fusion", [this] { reset(); });
+  make_stage();
+
+  Health& health = edge_->health();
+  sightings_watch_ = &health.watch("sightings", Need::kRequired);
+  fix_watch_ = &health.watch("fix", Need::kOptional);
+  pose_watch_ = &health.watch("pose", Need::kRequired);
+  health.add_report([this](Health::Status& status) { report(status); });
+
+  pose_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 50);
+  odometry_ = nh.advertise<nav_msgs::Odometry>("odometry/filtered", 50);
+  if (transform_ != Transform::kNone) broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
+  camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
+  beacons_ = std::make_unique<BeaconInput>(
+      nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
+  motion_ = std::make_unique<MotionInput>(
+      nh, *edge_,
+      [this](const ImuSample& sample) {
+        stage_->add_imu(sample);
+        publish_if_due();
+      },
+      [this](const OdometrySample& sample) { take_odometry(sample); });
+  sightings_ = nh.subscribe("beacons/sightings", 10, &PoseFusionNodelet::take_sightings, this);
+  fix_ = nh.subscribe("beacons/fix", 10, &PoseFusionNodelet::take_fix, this);
+}
+
+void PoseFusionNodelet::read_params(ParamReader& params) {
+  publish_rate_hz_ = params.number("publish_rate_hz", 50, {1, 1000});
+  odom_frame_ = params.text("odom_frame", "odom");
+  use_sightings_ = params.flag("use_sightings", true);
+  const std::string transform = params.choice("publish_tf", "map_odom", {"map_odom", "map_base", "none"});
+  transform_ = transform == "map_odom"   ? Transform::kMapOdom
+               : transform == "map_base" ? Transform::kMapBase
+                                         : Transform::kNone;
+}
+
+void PoseFusionNodelet::make_stage() {
+  const LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
+  stage_ = std::make_unique<FusionStage>(params.filter, params.calibration_sigma_px, use_sightings_);
+}
+
+void PoseFusionNodelet::take_sightings(const BeaconSightingArrayConstPtr& message) {
+  sightings_watch_->tick();
+  const auto sightings = sightings_from(*message);
+  if (!sightings) return edge_->health().drop(sightings.error());
+  if (!edge_->admit(message->header.stamp)) return;
+  const CameraMount* camera = camera_->get();
+  if (camera == nullptr) return;
+  if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
+  camera_revision_ = camera_->revision();
+  stage_->add_sightings(*sightings);
+  publish_if_due();
+}
+
+void PoseFusionNodelet::take_fix(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
+  fix_watch_->tick();
+  const auto estimate = pose_estimate_from(*message, edge_->map_frame());
+  if (!estimate) return edge_->health().drop(estimate.error());
+  if (!edge_->admit(message->header.stamp)) return;
+  Fix fix;
+  static_cast<PoseEstimate&>(fix) = *estimate;
+  stage_->add_fix(fix);
+  publish_if_due();
+}
+
+void PoseFusionNodelet::take_odometry(const OdometrySample& sample) {
+  stage_->add_odometry(sample);
+  publish_if_due();
+  if (transform_ == Transform::kMapOdom) publish_map_odom(sample);
+}
+
+void PoseFusionNodelet::publish_if_due() {
+  const auto estimate = stage_->filter().estimate();
+  if (!estimate) return;
+  if (published_ && seconds(estimate->stamp - *published_) < 1.0 / publish_rate_hz_) return;
+  published_ = estimate->stamp;
+  pose_.publish(pose_estimate_message(*estimate, edge_->map_frame()));
+  odometry_.publish(odometry_message(*estimate, edge_->map_frame(), edge_->base_frame()));
+  pose_watch_->tick();
+  if (transform_ != Transform::kMapBase) return;
+  broadcaster_->sendTransform(
+      transform_message(estimate->T_map_base, estimate->stamp, edge_->map_frame(), edge_->base_frame()));
+}
+
+void PoseFusionNodelet::publish_map_odom(const OdometrySample& sample) {
+  if (transformed_ && seconds(sample.stamp - *transformed_) < 1.0 / publish_rate_hz_) return;
+  const auto estimate = stage_->filter().estimate_at(sample.stamp);
+  if (!estimate) return;
+  transformed_ = sample.stamp;
+  const RigidTransform T_odom_base =
+      Eigen::Translation3d(sample.position_odom_m) * Eigen::AngleAxisd(sample.yaw_odom_rad, Eigen::Vector3d::UnitZ());
+  broadcaster_->sendTransform(
+      transform_message(estimate->T_map_base * T_odom_base.inverse(), sample.stamp, edge_->map_frame(), odom_frame_));
+}
+
+void PoseFusionNodelet::report(Health::Status& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const FilterMode mode = stage_->filter().mode();
+  status.add("mode", name(mode));
+  if (mode == FilterMode::kStarting || mode == FilterMode::kCoasting) {
+    status.mergeSummary(DiagnosticStatus::WARN, name(mode));
+  }
+  if (mode == FilterMode::kLost) status.mergeSummary(DiagnosticStatus::ERROR, name(mode));
+  if (const auto estimate = stage_->filter().estimate()) {
+    status.addf("sigma_x_m", "%.4f", std::sqrt(estimate->covariance(0, 0)));
+    status.addf("sigma_y_m", "%.4f", std::sqrt(estimate->covariance(1, 1)));
+    status.addf("sigma_yaw_rad", "%.5f", std::sqrt(estimate->covariance(5, 5)));
+  }
+  stage_->filter().drops().each(
+      [&](const char* reason, std::uint64_t count) { status.add(std::string("not used: ") + reason, count); });
+}
+
+void PoseFusionNodelet::reset() {
+  stage_->reset();
+  beacons_->reset_time();
+  published_.reset();
+  transformed_.reset();
+}
+
+}  // namespace lodestar
+
+PLUGINLIB_EXPORT_CLASS(lodestar::PoseFusionNodelet, nodelet::Nodelet)

@@ -1,0 +1,65 @@
+#include "lodestar/ros/nodelets/pose_solving_nodelet.hpp"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "lodestar/line/localization_line.hpp"
+#include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/convert/sightings.hpp"
+
+namespace lodestar {
+
+namespace {
+constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends on the frame rate
+}
+
+void PoseSolvingNodelet::onInit() {
+  ros::NodeHandle& nh = getNodeHandle();
+  ParamReader reader(getPrivateNodeHandle());
+  edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "pose solving", [this] { reset(); });
+
+  const LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
+  stage_ = std::make_unique<PoseStage>(params.solver, params.tilt, params.calibration_sigma_px);
+  Health& health = edge_->health();
+  sightings_watch_ = &health.watch("sightings", Need::kRequired);
+  fix_watch_ = &health.watch("fix", Need::kRequired);
+  health.add_report([this](Health::Status& status) {
+    stage_->refusals().each(
+        [&](const char* reason, std::uint64_t count) { status.add(std::string("no fix: ") + reason, count); });
+  });
+
+  fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 10);
+  camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
+  beacons_ = std::make_unique<BeaconInput>(
+      nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
+  motion_ = std::make_unique<MotionInput>(
+      nh, *edge_, [this](const ImuSample& sample) { stage_->add_imu(sample); },
+      [this](const OdometrySample& sample) { stage_->add_odometry(sample); });
+  sightings_ = nh.subscribe("beacons/sightings", 10, &PoseSolvingNodelet::take_sightings, this);
+}
+
+void PoseSolvingNodelet::take_sightings(const BeaconSightingArrayConstPtr& message) {
+  sightings_watch_->tick();
+  const auto sightings = sightings_from(*message);
+  if (!sightings) return edge_->health().drop(sightings.error());
+  if (!edge_->admit(message->header.stamp)) return;
+  const CameraMount* camera = camera_->get();
+  if (camera == nullptr) return;
+  if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
+  camera_revision_ = camera_->revision();
+
+  const auto fix = stage_->process(*sightings);
+  if (!fix) return;
+  fix_.publish(pose_estimate_message(*fix, edge_->map_frame()));
+  fix_watch_->tick();
+}
+
+void PoseSolvingNodelet::reset() {
+  stage_->reset();
+  beacons_->reset_time();
+}
+
+}  // namespace lodestar
+
+PLUGINLIB_EXPORT_CLASS(lodestar::PoseSolvingNodelet, nodelet::Nodelet)

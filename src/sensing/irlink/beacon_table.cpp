@@ -1,0 +1,117 @@
+#include "lodestar/sensing/irlink/beacon_table.hpp"
+
+#include <cmath>
+
+namespace lodestar {
+
+namespace {
+
+constexpr double kGateSigmas = 3.0;
+constexpr double kRoundingSigma_m = 1e-3 / 3.4641016151377544;  // of whole mm: 1 / sqrt(12)
+
+double sigma_m(const Announcement& announcement) {
+  return announcement.surveyed ? BeaconTable::kSurveyedSigma_m : BeaconTable::kUnsurveyedSigma_m;
+}
+
+/// Same tones, and no axis further off than 3 sigma.
+bool agree(const Eigen::Vector3d& position_map, ToneSet tones, double sigma_m, const Announcement& announcement) {
+  const double gate_m = kGateSigmas * std::hypot(sigma_m, kRoundingSigma_m);
+  return tones == announcement.tones && ((position_map - announcement.position_map).array().abs() <= gate_m).all();
+}
+
+}  // namespace
+
+BeaconTable::BeaconTable(const Site& site) : clock_(site.link) {
+  for (const Beacon& beacon : site.beacons) {
+    Entry& entry = entries_[beacon.id];
+    entry.beacon = beacon;
+    entry.in_site_file = true;
+  }
+}
+
+std::optional<IrDrop> BeaconTable::accept(const Announcement& announcement) {
+  const auto drop = judge(announcement);
+  if (drop)
+    drops_.add(*drop);
+  else
+    ++accepted_;
+  return drop;
+}
+
+std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
+  const auto known = entries_.find(announcement.beacon);
+  if (known == entries_.end()) {
+    if (entries_.size() >= kMostBeacons) return IrDrop::kFull;
+  } else if (known->second.in_site_file && known->second.beacon.slot != announcement.slot) {
+    return IrDrop::kSlot;
+  }
+  if (const auto drop = clock_.accept(announcement)) return drop;
+
+  Entry& entry = entries_[announcement.beacon];
+  const auto drop =
+      entry.in_site_file ? compare_with_site(entry, announcement) : compare_with_past(entry, announcement);
+  ++entry.heard;
+  entry.last = announcement;
+  return drop;
+}
+
+std::optional<IrDrop> BeaconTable::compare_with_site(Entry& entry, const Announcement& announcement) {
+  const Beacon& beacon = entry.beacon;
+  set_conflict(entry, !agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement));
+  if (entry.conflict) return IrDrop::kConflict;
+  return std::nullopt;
+}
+
+std::optional<IrDrop> BeaconTable::compare_with_past(Entry& entry, const Announcement& announcement) {
+  const Beacon& beacon = entry.beacon;
+  const bool repeats =
+      entry.last && agree(entry.last->position_map, entry.last->tones, sigma_m(*entry.last), announcement);
+  entry.repeats = repeats ? entry.repeats + 1 : 1;
+  const bool first = entry.heard == 0;
+  const bool confirms = !entry.conflict && agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement);
+  if (first || confirms || entry.repeats >= kRepeatsToBelieve) {
+    learn(entry, announcement);
+    return std::nullopt;
+  }
+  set_conflict(entry, true);
+  return IrDrop::kConflict;
+}
+
+void BeaconTable::set_conflict(Entry& entry, bool conflict) {
+  if (entry.conflict != conflict) ++revision_;
+  entry.conflict = conflict;
+}
+
+void BeaconTable::learn(Entry& entry, const Announcement& announcement) {
+  Beacon& beacon = entry.beacon;
+  const bool same = entry.heard > 0 && !entry.conflict && beacon.position_map == announcement.position_map &&
+                    beacon.tones == announcement.tones && beacon.slot == announcement.slot &&
+                    beacon.sigma_m == sigma_m(announcement);
+  if (same) return;
+  beacon = {announcement.beacon, announcement.position_map, announcement.tones,
+            announcement.slot,   Waveform::kSine,           sigma_m(announcement)};
+  entry.conflict = false;
+  ++revision_;
+}
+
+std::vector<Beacon> BeaconTable::beacons() const {
+  std::vector<Beacon> beacons;
+  for (const auto& [id, entry] : entries_)
+    if (!entry.conflict) beacons.push_back(entry.beacon);
+  return beacons;
+}
+
+std::vector<BeaconId> BeaconTable::heard(Stamp now, Duration max_age) const {
+  std::vector<BeaconId> ids;
+  for (const auto& [id, entry] : entries_)
+    if (!entry.conflict && entry.last && std::abs(seconds(now - entry.last->stamp)) <= seconds(max_age))
+      ids.push_back(id);
+  return ids;
+}
+
+void BeaconTable::reset_time() {
+  clock_.reset();
+  for (auto& [id, entry] : entries_) entry.last.reset();
+}
+
+}  // namespace lodestar

@@ -1,0 +1,255 @@
+#include "lodestar/sensing/beacon/beacon_detector.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "support/blob_scene.hpp"
+
+namespace lodestar {
+namespace {
+
+using test::at;
+using test::BlobScene;
+using test::steady;
+using test::tones;
+
+const std::vector<double> kTable = {6, 8, 10, 12, 14, 16, 24, 26};
+
+std::shared_ptr<const CameraModel> camera_for(const BlobScene& scene) {
+  CameraIntrinsics lens;
+  lens.width_px = scene.width_px;
+  lens.height_px = scene.height_px;
+  lens.fx_px = lens.fy_px = 100;
+  lens.cx_px = scene.width_px / 2.0;
+  lens.cy_px = scene.height_px / 2.0;
+  return CameraModel::create(lens).value();
+}
+
+BeaconDetector detector_for(const BlobScene& scene, std::vector<double> table = kTable, int window = 30) {
+  BeaconDetectorParams params;
+  params.tone_table_hz = std::move(table);
+  params.window_frames = window;
+  if (scene.bits == 16) params.white_level = scene.white_level;
+  BeaconDetector detector(params);
+  detector.set_camera(camera_for(scene));
+  return detector;
+}
+
+/// The result of the last of `frames` frames at `rate_hz`.
+Sightings run(BlobScene& scene, BeaconDetector& detector, int frames, double rate_hz,
+              const std::function<double(int)>& jitter_s = [](int) { return 0.0; }) {
+  Sightings last;
+  const CameraMotion standing;
+  for (int i = 0; i < frames; ++i) {
+    const auto result = detector.process(scene.render(i / rate_hz + jitter_s(i)), standing);
+    EXPECT_TRUE(result.ok());
+    if (result) last = *result;
+  }
+  return last;
+}
+
+TEST(BeaconDetector, ReadsCodesOfOneToThreeTones) {
+  BlobScene scene;
+  scene.lights = {{at(30.3, 40.2), tones(250, {6})},
+                  {at(70.7, 90.4), tones(250, {10, 24})},
+                  {at(120.1, 60.9), tones(250, {8, 14, 26})}};
+  auto detector = detector_for(scene);
+  const auto result = run(scene, detector, 31, 60);
+  ASSERT_EQ(result.sightings.size(), 3u);
+  const ToneSet codes[] = {{0}, {2, 6}, {1, 4, 7}};
+  for (const Sighting& sighting : result.sightings) {
+    bool found = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sighting.tones != codes[i]) continue;
+      found = true;
+      EXPECT_LT((sighting.pixel - scene.lights[i].pixel(0)).norm(), 0.05);
+      EXPECT_GT(sighting.snr_db, 20);
+      EXPECT_FALSE(sighting.saturated);
+    }
+    EXPECT_TRUE(found);
+  }
+}
+
+TEST(BeaconDetector, SaysNothingUntilItsWindowIsFull) {
+  BlobScene scene;
+  scene.lights = {{at(30, 40), tones(250, {6})}};
+  auto detector = detector_for(scene);
+  EXPECT_TRUE(run(scene, detector, 29, 60).sightings.empty());
+  EXPECT_EQ(detector.process(scene.render(29 / 60.0), CameraMotion()).value().sightings.size(), 1u);
+}
+
+TEST(BeaconDetector, FindsABeaconThatNoSingleFrameShows) {
+  BlobScene scene;
+  scene.noise = 1.5;
+  scene.lights = {{at(64.0, 40.0), tones(22, {8})}};  // peak pixel: 4 grey levels at most, noise 1.5
+  auto detector = detector_for(scene);
+  const auto result = run(scene, detector, 35, 60);
+  ASSERT_EQ(result.sightings.size(), 1u);
+  EXPECT_EQ(result.sightings[0].tones, ToneSet{1});
+  EXPECT_LT((result.sightings[0].pixel - Eigen::Vector2d(64, 40)).norm(), 0.5);
+}
+
+TEST(BeaconDetector, ReadsOnOffBeaconsAtThePapersRate) {
+  for (double tone : {5.0, 10.0}) {
+    for (double delay_s = 0; delay_s < 0.2; delay_s += 0.013) {
+      BlobScene scene;
+      scene.lights = {{at(50.4, 40.6), [=](double t) {
+                         double share = 0;  // of a 10 ms exposure that the light is on
+                         for (int i = 0; i < 20; ++i) {
+                           share += std::fmod((t + delay_s + i * 0.0005) * tone, 1.0) < 0.5 ? 0.05 : 0.0;
+                         }
+                         return 300 * share;
+                       }}};
+      auto detector = detector_for(scene, {5, 10}, 15);
+      const auto result = run(scene, detector, 20, 25);
+      ASSERT_EQ(result.sightings.size(), 1u) << tone << " Hz, delay " << delay_s;
+      EXPECT_EQ(result.sightings[0].tones, ToneSet{tone == 5.0 ? 0 : 1}) << "delay " << delay_s;
+    }
+  }
+}
+
+TEST(BeaconDetector, AClippedTwoToneBeaconKeepsItsCodeAndCentre) {
+  for (double light : {3000.0, 10000.0, 30000.0}) {
+    BlobScene scene;
+    scene.lights = {{at(60.3, 50.8), tones(light, {6, 10})}};
+    auto detector = detector_for(scene);
+    const auto result = run(scene, detector, 31, 60);
+    ASSERT_EQ(result.sightings.size(), 1u) << light;
+    EXPECT_EQ(result.sightings[0].tones, (ToneSet{0, 2})) << light;
+    EXPECT_TRUE(result.sightings[0].saturated);
+    EXPECT_LT((result.sightings[0].pixel - Eigen::Vector2d(60.3, 50.8)).norm(), 0.1) << light;
+  }
+}
+
+TEST(BeaconDetector, LampsAreNoBeacons) {
+  const std::vector<std::function<double(double)>> lamps = {
+      steady(400),
+      [](double t) { return 300 * (1 + 0.9 * std::cos(2 * kPi * 100 * t)); },                       // mains flicker
+      [](double t) { return 300 * (1 + 0.4 * std::cos(2 * kPi * 120.01 * t)); },
+      [](double t) { return 300 * std::pow(std::abs(std::sin(2 * kPi * 50 * t)), 3); },             // tube
+      [](double t) { return std::fmod(t * 2, 1.0) < 0.5 ? 400.0 : 0.0; },                           // warning lights
+      [](double t) { return std::fmod(t * 1.5, 1.0) < 0.1 ? 400.0 : 0.0; },
+      [](double t) { return std::fmod(t * 3, 1.0) < 0.2 ? 400.0 : 0.0; }};
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    BlobScene scene;
+    scene.lights = {{at(60.3, 50.8), lamps[i]}};
+    auto detector = detector_for(scene);
+    const CameraMotion standing;
+    for (int frame = 0; frame < 150; ++frame) {
+      EXPECT_TRUE(detector.process(scene.render(frame / 60.0), standing).value().sightings.empty())
+          << "lamp " << i << ", frame " << frame;
+    }
+  }
+}
+
+TEST(BeaconDetector, AMovingSteadyLampIsNoBeacon) {
+  for (double speed_px_s : {3.0, 20.0, 60.0, 200.0}) {
+    BlobScene scene;
+    scene.lights = {{[=](double t) { return Eigen::Vector2d(10 + speed_px_s * t, 30 + 0.3 * speed_px_s * t); }, steady(400)}};
+    auto detector = detector_for(scene);
+    const CameraMotion unknown;
+    const int frames = static_cast<int>(std::min(120.0, 140.0 / speed_px_s * 60));
+    for (int i = 0; i < frames; ++i) {
+      EXPECT_TRUE(detector.process(scene.render(i / 60.0), unknown).value().sightings.empty()) << speed_px_s << " px/s";
+    }
+  }
+}
+
+TEST(BeaconDetector, JitterAndLostFramesDoNotBendTheCode) {
+  BlobScene scene;
+  scene.lights = {{at(60.3, 50.8), tones(250, {12, 26})}};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  auto detector = detector_for(scene);
+  const CameraMotion standing;
+  int windows = 0, right = 0, wrong = 0;
+  for (int i = 0; i < 300; ++i) {
+    if (uniform(random) > 0.8) continue;  // one in ten is lost
+    const auto result = detector.process(scene.render((i + 0.2 * uniform(random)) / 60.0), standing);
+    if (i < 40) continue;
+    ++windows;
+    for (const Sighting& sighting : result->sightings) ++(sighting.tones == ToneSet{3, 7} ? right : wrong);
+  }
+  EXPECT_GE(right, windows * 97 / 100);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(BeaconDetector, CarriesTwelveBitsInMono16) {
+  BlobScene scene;
+  scene.bits = 16;
+  scene.white_level = 4095;
+  scene.dark_level = 60;
+  scene.noise = 2;
+  scene.lights = {{at(40.2, 40.7), tones(9000, {6, 10})}, {at(110.6, 80.4), tones(60, {8, 16})}};
+  auto detector = detector_for(scene);
+  const auto result = run(scene, detector, 31, 60);
+  ASSERT_EQ(result.sightings.size(), 2u);
+  for (const Sighting& s : result.sightings) EXPECT_EQ(s.tones, s.pixel.x() < 80 ? (ToneSet{0, 2}) : (ToneSet{1, 5}));
+}
+
+TEST(BeaconDetector, FollowsTheMotionThatOdometryPredictsThoughTheHeightIsWrong) {
+  BlobScene scene;
+  const auto camera = camera_for(scene);
+  const double height_m = 5, speed_m_s = 1.5;
+  const auto place = [&](double t) {
+    return camera->project(Eigen::Vector3d(2.5 - speed_m_s * t, 0.7, height_m))->pixel;
+  };
+  scene.lights = {{place, tones(250, {8, 16})}};
+  auto detector = detector_for(scene);
+  detector.set_plane_height(5.4);
+  CameraMotion motion;
+  int seen = 0;
+  double square = 0;
+  for (int i = 0; i < 80; ++i) {
+    const double t = i / 60.0;
+    const Image image = scene.render(t);
+    motion.add_odometry({image.stamp, {speed_m_s, 0}, 0, Eigen::Vector3d::Zero(), 0});
+    const auto result = detector.process(image, motion);
+    if (i < 32) continue;
+    ASSERT_EQ(result->sightings.size(), 1u) << "frame " << i;
+    EXPECT_EQ(result->sightings[0].tones, (ToneSet{1, 5}));
+    square += (result->sightings[0].pixel - place(t)).squaredNorm();
+    ++seen;
+  }
+  EXPECT_LT(std::sqrt(square / seen / 2), 0.1) << "px rms, each axis, for the newest frame";
+}
+
+TEST(BeaconDetector, DropsWhatItCannotUseByReason) {
+  BlobScene scene;
+  const CameraMotion standing;
+  BeaconDetector blind{BeaconDetectorParams()};
+  EXPECT_EQ(blind.process(scene.render(0), standing).error(), FrameDrop::kNoCamera);
+
+  auto detector = detector_for(scene);
+  const auto refuse = [&](Image image) { return detector.process(image, standing).error(); };
+  Image image = scene.render(1);
+  ASSERT_TRUE(detector.process(image, standing).ok());
+  EXPECT_EQ(refuse(image), FrameDrop::kDuplicate);
+  EXPECT_EQ(refuse(scene.render(0.5)), FrameDrop::kBackwards);
+  Image wrong = scene.render(2);
+  wrong.data = nullptr;
+  EXPECT_EQ(refuse(wrong), FrameDrop::kNoPixels);
+  wrong = scene.render(2);
+  wrong.bits = 24;
+  EXPECT_EQ(refuse(wrong), FrameDrop::kFormat);
+  wrong = scene.render(2);
+  wrong.stride_bytes = 10;
+  EXPECT_EQ(refuse(wrong), FrameDrop::kFormat);
+  wrong = scene.render(2);
+  wrong.height_px -= 1;
+  EXPECT_EQ(refuse(wrong), FrameDrop::kSize);
+  EXPECT_EQ(detector.drops()[FrameDrop::kDuplicate], 1u);
+  EXPECT_EQ(detector.drops().total(), 6u);
+}
+
+TEST(BeaconDetector, ALongPauseStartsTheWindowAnew) {
+  BlobScene scene;
+  scene.lights = {{at(60, 50), tones(250, {6})}};
+  auto detector = detector_for(scene);
+  EXPECT_EQ(run(scene, detector, 31, 60).sightings.size(), 1u);
+  EXPECT_TRUE(detector.process(scene.render(5), CameraMotion()).value().sightings.empty());
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,67 @@
+#include "lodestar/sensing/beacon/camera_motion.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace lodestar {
+namespace {
+
+Stamp at(double time_s) { return Stamp{} + std::chrono::seconds(100) + from_seconds(time_s); }
+
+/// A circle of radius v / w, the camera ahead of the axle and above it.
+struct Circle {
+  double v_m_s = 3, w_rad_s = 0.8;
+  RigidTransform T_base_camera = RigidTransform::Identity();
+
+  Circle() { T_base_camera.translation() = Eigen::Vector3d(0.4, 0.1, 2.2); }
+  RigidTransform T_map_camera(double t) const {
+    const double yaw = w_rad_s * t, radius = v_m_s / w_rad_s;
+    RigidTransform T_map_base = RigidTransform::Identity();
+    T_map_base.linear() = so3_exp({0, 0, yaw});
+    T_map_base.translation() = Eigen::Vector3d(radius * std::sin(yaw), radius * (1 - std::cos(yaw)), 0);
+    return T_map_base * T_base_camera;
+  }
+  void feed(CameraMotion& motion, bool gyro) const {
+    motion.set_mount(T_base_camera);
+    for (int i = 0; i <= 200; ++i) {
+      const double t = i * 0.005;
+      if (gyro) motion.add_imu({at(t), {0, 0, w_rad_s}, {0, 0, 9.81}});
+      if (i % 4 == 0) motion.add_odometry({at(t), {v_m_s, 0}, w_rad_s, Eigen::Vector3d::Zero(), 0});
+    }
+  }
+};
+
+TEST(CameraMotion, FollowsACircle) {
+  for (const bool gyro : {true, false}) {
+    const Circle circle;
+    CameraMotion motion;
+    circle.feed(motion, gyro);
+    std::vector<Stamp> stamps;
+    for (int i = 0; i < 30; ++i) stamps.push_back(at(0.4 + i / 60.0));
+    const auto T_then_now = motion.T_then_now(stamps);
+    for (std::size_t i = 0; i < 30; ++i) {
+      const RigidTransform expected =
+          circle.T_map_camera(0.4 + static_cast<double>(i) / 60.0).inverse() * circle.T_map_camera(0.4 + 29 / 60.0);
+      EXPECT_LT((T_then_now[i].matrix() - expected.matrix()).norm(), 1e-4) << "frame " << i;
+    }
+  }
+}
+
+TEST(CameraMotion, WithoutSamplesTheCameraStands) {
+  const CameraMotion motion;
+  for (const auto& T : motion.T_then_now({at(0), at(1)})) EXPECT_TRUE(T.isApprox(RigidTransform::Identity()));
+}
+
+TEST(CameraMotion, IgnoresNaNAndStampsThatDoNotMoveForward) {
+  CameraMotion motion;
+  motion.add_odometry({at(0), {1, 0}, 0, Eigen::Vector3d::Zero(), 0});
+  motion.add_odometry({at(1), {std::numeric_limits<double>::quiet_NaN(), 0}, 0, Eigen::Vector3d::Zero(), 0});
+  motion.add_odometry({at(0), {50, 0}, 0, Eigen::Vector3d::Zero(), 0});
+  const auto T = motion.T_then_now({at(0), at(1)});
+  EXPECT_NEAR(T[0].translation().x(), 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,156 @@
+#include "lodestar/sensing/irlink/superframe_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include "heard.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double kSuperframe_s = 0.8;
+
+Link keyed() {
+  Link link;
+  link.key.emplace();
+  return link;
+}
+
+TEST(SuperframeClock, takes_the_frames_of_a_site_as_they_come) {
+  SuperframeClock clock{Link()};
+  for (std::uint32_t superframe = 100; superframe < 110; ++superframe)
+    for (std::uint32_t id : {1u, 2u, 12u}) EXPECT_EQ(clock.accept(heard(id, superframe)), std::nullopt);
+}
+
+TEST(SuperframeClock, the_same_frame_twice_is_dropped) {
+  SuperframeClock clock{Link()};
+  EXPECT_EQ(clock.accept(heard(1, 5)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(1, 5)), IrDrop::kSuperframe);
+  Announcement later = heard(1, 5);
+  later.stamp += from_seconds(0.3);
+  EXPECT_EQ(clock.accept(later), IrDrop::kSuperframe);
+}
+
+TEST(SuperframeClock, a_replayed_frame_is_dropped_whoever_sent_it) {
+  SuperframeClock clock{Link()};
+  EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
+  Announcement replayed = heard(2, 40);
+  replayed.stamp = heard(2, 50).stamp;
+  EXPECT_EQ(clock.accept(replayed), IrDrop::kSuperframe);
+  Announcement ahead = heard(2, 60);
+  ahead.stamp = heard(2, 50).stamp;
+  EXPECT_EQ(clock.accept(ahead), IrDrop::kSuperframe);
+  EXPECT_EQ(clock.accept(heard(2, 50)), std::nullopt);
+}
+
+TEST(SuperframeClock, one_superframe_is_the_tolerance_of_the_stamps) {
+  for (const double late_s : {-0.75, 0.75}) {
+    SuperframeClock clock{Link()};
+    EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
+    Announcement frame = heard(2, 52);
+    frame.stamp += from_seconds(late_s);
+    EXPECT_EQ(clock.accept(frame), std::nullopt) << late_s;
+  }
+  for (const double late_s : {-0.85, 0.85}) {
+    SuperframeClock clock{Link()};
+    EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
+    Announcement frame = heard(2, 52);
+    frame.stamp += from_seconds(late_s);
+    EXPECT_EQ(clock.accept(frame), IrDrop::kSuperframe) << late_s;
+  }
+}
+
+TEST(SuperframeClock, clocks_that_drift_stay_in_phase_over_hours_of_silence) {
+  SuperframeClock clock{Link()};
+  EXPECT_EQ(clock.accept(heard(1, 0)), std::nullopt);
+  Announcement frame = heard(1, 45000);                         // ten hours
+  frame.stamp += from_seconds(150e-6 * 45000 * kSuperframe_s);  // 5.4 s
+  EXPECT_EQ(clock.accept(frame), std::nullopt);
+}
+
+TEST(SuperframeClock, the_counter_wraps_around) {
+  SuperframeClock clock{Link()};
+  const double start_s = 1000 - 4294967294.0 * kSuperframe_s;
+  EXPECT_EQ(clock.accept(heard(1, 4294967294u, start_s)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(1, 4294967295u, start_s)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(1, 0, 1000 + 2 * kSuperframe_s)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(2, 0, 1000 + 2 * kSuperframe_s)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(1, 1, 1000 + 2 * kSuperframe_s)), std::nullopt);
+}
+
+TEST(SuperframeClock, frames_out_of_order_within_a_superframe_pass_older_ones_do_not) {
+  SuperframeClock clock{Link()};
+  EXPECT_EQ(clock.accept(heard(5, 50)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(2, 50)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(7, 49)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(3, 48)), IrDrop::kStamp);
+}
+
+TEST(SuperframeClock, a_clock_that_was_set_is_learnt_after_five_frames) {
+  for (const double jump_s : {3600.0, -3600.0}) {
+    SuperframeClock clock{Link()};
+    EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
+    const IrDrop reason = jump_s < 0 ? IrDrop::kStamp : IrDrop::kSuperframe;
+    for (std::uint32_t i = 0; i + 1 < SuperframeClock::kFramesToLearn; ++i)
+      EXPECT_EQ(clock.accept(heard(1, 51 + i, 1000 + jump_s)), reason);
+    EXPECT_EQ(clock.accept(heard(1, 60, 1000 + jump_s)), std::nullopt);
+    EXPECT_EQ(clock.accept(heard(2, 60, 1000 + jump_s)), std::nullopt);
+    EXPECT_NE(clock.accept(heard(2, 61, 1000)), std::nullopt);
+  }
+}
+
+TEST(SuperframeClock, beacons_that_count_from_0_again_are_learnt_without_a_key) {
+  SuperframeClock clock{Link()};
+  EXPECT_EQ(clock.accept(heard(1, 1000, 0)), std::nullopt);
+  for (std::uint32_t superframe = 0; superframe < 4; ++superframe)
+    EXPECT_EQ(clock.accept(heard(1, superframe, 900)), IrDrop::kSuperframe);
+  EXPECT_EQ(clock.accept(heard(1, 4, 900)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(1, 5, 900)), std::nullopt);
+}
+
+TEST(SuperframeClock, with_a_key_old_frames_are_never_learnt_but_a_set_clock_is) {
+  SuperframeClock clock{keyed()};
+  EXPECT_EQ(clock.accept(heard(1, 1000, 0)), std::nullopt);
+  for (std::uint32_t superframe = 500; superframe < 600; ++superframe)
+    EXPECT_EQ(clock.accept(heard(1, superframe, 900)), IrDrop::kSuperframe);
+  for (std::uint32_t superframe = 1100; superframe < 1104; ++superframe)
+    EXPECT_EQ(clock.accept(heard(1, superframe, 50)), IrDrop::kSuperframe);
+  EXPECT_EQ(clock.accept(heard(1, 1104, 50)), std::nullopt);
+}
+
+TEST(SuperframeClock, one_frame_repeated_is_no_phase) {
+  SuperframeClock clock{Link()};
+  EXPECT_EQ(clock.accept(heard(1, 1000, 0)), std::nullopt);
+  for (int i = 0; i < 50; ++i) {
+    Announcement frame = heard(2, 3, 900);
+    frame.stamp += from_seconds(0.01 * i);
+    EXPECT_EQ(clock.accept(frame), IrDrop::kSuperframe);
+  }
+}
+
+TEST(SuperframeClock, a_foreign_phase_beside_the_true_one_is_not_learnt) {
+  SuperframeClock clock{Link()};
+  for (std::uint32_t superframe = 100; superframe < 140; ++superframe) {
+    EXPECT_EQ(clock.accept(heard(1, superframe, 0)), std::nullopt);
+    EXPECT_NE(clock.accept(heard(2, superframe - 90, 72.4)), std::nullopt);
+  }
+}
+
+TEST(SuperframeClock, reset_believes_the_next_frame) {
+  SuperframeClock clock{keyed()};
+  EXPECT_EQ(clock.accept(heard(1, 1000)), std::nullopt);
+  clock.reset();
+  EXPECT_EQ(clock.accept(heard(1, 3, 7)), std::nullopt);
+}
+
+TEST(SuperframeClock, the_ends_of_time_are_safe) {
+  SuperframeClock clock{Link()};
+  Announcement first = heard(1, 0);
+  first.stamp = Stamp::min();
+  EXPECT_EQ(clock.accept(first), std::nullopt);
+  Announcement last = heard(1, 1);
+  last.stamp = Stamp::max();
+  EXPECT_EQ(clock.accept(last), IrDrop::kSuperframe);
+}
+
+}  // namespace
+}  // namespace lodestar
