@@ -227,6 +227,9 @@ int replay(const po::variables_map& options) {
   }
 
   LocalizationLine line(site, line_params(site, vehicle, rate_hz));
+  if (const auto T_base_imu = vehicle.T_base_imu ? vehicle.T_base_imu : reader.mount("imu_link")) {
+    line.set_imu(T_base_imu->translation());
+  }
   Replay replay(line, mount, csv, out_bag.get());
   {
     ProgressBar bar("replay");

@@ -12,6 +12,7 @@ void FusionStage::set_camera(const CameraMount& camera) {
   filter_.set_camera(camera.T_base_camera);
 }
 
+void FusionStage::set_imu(const Eigen::Vector3d& imu_position_base) { filter_.set_imu(imu_position_base); }
 void FusionStage::set_beacons(const std::vector<Beacon>& beacons) { beacons_ = beacons; }
 void FusionStage::add_imu(const ImuSample& sample) { filter_.add_imu(sample); }
 void FusionStage::add_odometry(const OdometrySample& sample) { filter_.add_odometry(sample); }

@@ -51,6 +51,8 @@ void LocalizationLine::set_camera(const CameraMount& camera) {
   fusion_.set_camera(camera);
 }
 
+void LocalizationLine::set_imu(const Eigen::Vector3d& imu_position_base) { fusion_.set_imu(imu_position_base); }
+
 void LocalizationLine::add_imu(const ImuSample& sample) {
   detection_.add_imu(sample);
   pose_.add_imu(sample);

@@ -19,6 +19,8 @@ class FusionStage {
   FusionStage(const PoseFilterParams& filter, double calibration_sigma_px, bool use_sightings);
 
   void set_camera(const CameraMount& camera);
+  /// Where the inertial sensor sits, in base_link (m).
+  void set_imu(const Eigen::Vector3d& imu_position_base);
   void set_beacons(const std::vector<Beacon>& beacons);
 
   void add_imu(const ImuSample& sample);

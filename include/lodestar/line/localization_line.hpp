@@ -41,6 +41,8 @@ class LocalizationLine {
   LocalizationLine(const Site& site, const LineParams& params);
 
   void set_camera(const CameraMount& camera);
+  /// Where the inertial sensor sits, in base_link (m).
+  void set_imu(const Eigen::Vector3d& imu_position_base);
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
 

@@ -1,9 +1,8 @@
 #include "lodestar/ros/nodelets/image_overlay.hpp"
 
+#include <boost/make_shared.hpp>
 #include <cmath>
 #include <cstdio>
-
-#include <boost/make_shared.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 

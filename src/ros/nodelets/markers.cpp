@@ -1,8 +1,7 @@
 #include "lodestar/ros/nodelets/markers.hpp"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "lodestar/ros/convert/transform.hpp"
 
@@ -12,7 +11,7 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-constexpr double kMargin_m = 4.0;      // of the floor beyond the outermost beacons
+constexpr double kMargin_m = 4.0;  // of the floor beyond the outermost beacons
 constexpr double kThickEach_m = 5.0;
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a = 1.0) {
@@ -131,8 +130,8 @@ MarkerArray truck_markers(const std_msgs::Header& header, const RigidTransform& 
   };
   const auto paint = color(0.95, 0.55, 0.08), steel = color(0.20, 0.20, 0.22), fork = color(0.55, 0.56, 0.58);
   std::vector<Part> parts = {
-      {{-0.05, 0, 0.55}, {1.5, 1.1, 0.6}, paint},    {{-0.75, 0, 0.65}, {0.5, 1.15, 0.8}, steel},
-      {{0.0, 0, 2.1}, {1.2, 1.0, 0.06}, steel},      {{0.85, 0, 0.4}, {0.08, 0.9, 0.5}, fork},
+      {{-0.05, 0, 0.55}, {1.5, 1.1, 0.6}, paint}, {{-0.75, 0, 0.65}, {0.5, 1.15, 0.8}, steel},
+      {{0.0, 0, 2.1}, {1.2, 1.0, 0.06}, steel},   {{0.85, 0, 0.4}, {0.08, 0.9, 0.5}, fork},
       {{0.80, 0, 2.2}, {0.12, 0.8, 0.10}, steel},
   };
   for (const double side : {-1.0, 1.0}) {

@@ -1,12 +1,12 @@
 #include "lodestar/ros/nodelets/simulation_nodelet.hpp"
 
-#include <algorithm>
-
-#include <boost/make_shared.hpp>
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <geometry_msgs/PoseStamped.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/IrFrame.h"
 #include "lodestar/ros/convert/camera_info.hpp"
@@ -73,10 +73,10 @@ void SimulationNodelet::advertise() {
 void SimulationNodelet::publish_mounts() {
   mounts_ = std::make_unique<tf2_ros::StaticTransformBroadcaster>();
   const Stamp stamp = scenario_.start;
-  mounts_->sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      transform_message(scenario_.T_base_camera, stamp, kBase, kCamera),
-      transform_message(scenario_.imu.T_base_imu, stamp, kBase, kImu),
-      transform_message(scenario_.ir.T_base_ir, stamp, kBase, kIr)});
+  mounts_->sendTransform(
+      std::vector<geometry_msgs::TransformStamped>{transform_message(scenario_.T_base_camera, stamp, kBase, kCamera),
+                                                   transform_message(scenario_.imu.T_base_imu, stamp, kBase, kImu),
+                                                   transform_message(scenario_.ir.T_base_ir, stamp, kBase, kIr)});
 }
 
 void SimulationNodelet::step() {
@@ -111,8 +111,8 @@ void SimulationNodelet::publish(const ImuSample& sample) {
 
 void SimulationNodelet::publish(const OdometrySample& sample) {
   odometry_.publish(odometry_message(sample, kOdom, kBase));
-  const RigidTransform T_odom_base = Eigen::Translation3d(sample.position_odom_m) *
-                                     Eigen::AngleAxisd(sample.yaw_odom_rad, Eigen::Vector3d::UnitZ());
+  const RigidTransform T_odom_base =
+      Eigen::Translation3d(sample.position_odom_m) * Eigen::AngleAxisd(sample.yaw_odom_rad, Eigen::Vector3d::UnitZ());
   broadcaster_->sendTransform(transform_message(T_odom_base, sample.stamp, kOdom, kBase));
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/ros/convert/image.hpp"
@@ -94,9 +93,8 @@ void VisualizationNodelet::draw_image(const BeaconSightingArray& sightings) {
   if (images_.empty()) return;
   const Stamp stamp = stamp_from(sightings.header.stamp);
   const auto distance = [&](const Image& image) { return std::abs(seconds(image.stamp - stamp)); };
-  const auto nearest = std::min_element(images_.begin(), images_.end(), [&](const Image& a, const Image& b) {
-    return distance(a) < distance(b);
-  });
+  const auto nearest = std::min_element(images_.begin(), images_.end(),
+                                        [&](const Image& a, const Image& b) { return distance(a) < distance(b); });
   image_publisher_.publish(draw_sightings(*nearest, sightings));
 }
 

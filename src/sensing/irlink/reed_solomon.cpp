@@ -21,8 +21,8 @@ std::optional<int> ReedSolomon::correct(Octets& octets) const {
   const Octets received = octets;
   if (decode_rs_char(code_.get(), octets.data(), nullptr, 0) < 0) return std::nullopt;
 
-  // A shortened code's decoder may place an error in the padding that was never sent, leave that one be, and report
-  // success. What it left is no code word then, which the parity shows.
+  // An error that the decoder places in the padding, which was never sent, cannot be mended. Debian's libfec refuses
+  // it; its documentation does not promise so. What is no code word was not mended.
   Octets word = octets;
   add_parity(word);
   if (word != octets) return std::nullopt;

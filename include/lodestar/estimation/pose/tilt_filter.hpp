@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <deque>
 #include <optional>
 
 #include "lodestar/base/measurement/motion.hpp"
@@ -8,22 +10,59 @@
 namespace lodestar {
 
 struct TiltFilterParams {
-  double gyro_noise_rad_s = 0.002;
-  double gyro_bias_rad_s = 0.005;
+  double gyro_noise_rad_s = 0.002;  ///< white, each sample
+  double gyro_bias_rad_s = 0.005;   ///< one sigma of the turn-on bias
   double accelerometer_noise_m_s2 = 0.05;
   double accelerometer_bias_m_s2 = 0.05;
+  double odometry_velocity_sigma_m_s = 0.03;
+  double odometry_yaw_rate_sigma_rad_s = 0.01;
+  double odometry_scale_sigma = 0.02;  ///< relative
 };
 
-/// Roll and pitch from gyro and accelerometer, the vehicle's own acceleration (from wheel odometry) taken off.
+/// Roll and pitch from gyro and accelerometer, the vehicle's own acceleration taken off: a small EKF that also carries
+/// the velocity, so that wheel odometry is never differentiated. The accelerometer's bias is not estimated, but its
+/// share in the sigma is (about bias / g at rest).
+///
+/// Samples with NaN, of an older or equal stamp, are ignored. Time that goes back, or stands out, by more than a second
+/// starts the filter anew. Without wheel odometry the vehicle is taken to creep (1 m/s, one sigma).
+/// It assumes that the inertial sensor sits near base_link: the acceleration that turning makes at a distance from it
+/// is not modelled.
 class TiltFilter {
  public:
   explicit TiltFilter(const TiltFilterParams& params);
+
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
+
   /// At the newest inertial sample. Empty before the first; flat floor (0, 0, sigma 0.02 rad) when wheels are
   /// heard but no inertial sensor ever was.
   std::optional<Tilt> tilt() const;
+
   void reset();
+
+ private:
+  enum Index { kRoll, kPitch, kGyroX, kGyroY, kGyroZ, kVelocityX, kVelocityY, kScale, kAccelX, kAccelY, kSize };
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+
+  void restart();
+  void start_with(const ImuSample& sample);
+  void predict(const ImuSample& sample, double dt_s);
+  void take_pending_odometry();
+  void correct_by_odometry(const OdometrySample& sample);
+  void correct_by_creeping();
+  void correct(const Vector& h, double innovation, double variance);
+
+  TiltFilterParams params_;
+  bool imu_ever_ = false, wheels_ever_ = false;
+  int samples_ = 0;                                            ///< since the start
+  Eigen::Vector3d mean_force_m_s2_ = Eigen::Vector3d::Zero();  ///< of the first samples
+  std::optional<ImuSample> imu_;                               ///< newest
+  std::optional<OdometrySample> odometry_;                     ///< newest
+  std::deque<OdometrySample> pending_;                         ///< newer than the newest inertial sample
+  Stamp speed_known_;                                          ///< when the velocity was last corrected
+  Vector x_ = Vector::Zero();
+  Matrix P_ = Matrix::Zero();
 };
 
 }  // namespace lodestar

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include "lodestar/BeaconAnnouncement.h"
+#include "lodestar/GetBeacons.h"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/ros/convert/ir_frame.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
+#include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
+#include "ros/support/bag_player.hpp"
+#include "ros/support/diagnostics.hpp"
+#include "ros/support/inbox.hpp"
+
+namespace {
+
+using namespace lodestar;
+using namespace lodestar::test;
+
+const char* const kNode = "ir_decoding";
+
+class IrDecoding : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto loaded = load_site(ros::param::param<std::string>("/site", ""));
+    ASSERT_TRUE(loaded.ok());
+    site_ = *loaded;
+    ASSERT_TRUE(player_.connected({"/ir/frames"}));
+    ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
+  }
+
+  /// What beacon 11 would say.
+  Announcement announcement(std::uint32_t superframe) const {
+    const Beacon& beacon = site_.beacons[0];
+    Announcement a;
+    a.stamp = stamp_from(player_.now());
+    a.beacon = beacon.id;
+    a.slot = static_cast<std::uint8_t>(beacon.slot);
+    a.superframe = superframe;
+    a.position_map = beacon.position_map;
+    a.tones = beacon.tones;
+    a.surveyed = true;
+    return a;
+  }
+  void send(const Announcement& a, const ros::Time& stamp) {
+    RawIrFrame frame;
+    frame.stamp = stamp_from(stamp);
+    frame.octets = encode_ir_frame(a, site_.link);
+    frame.levels = {0.5f};
+    player_.publish("/ir/frames", ir_frame_message(frame, "ir_array"));
+  }
+  bool dropped(const std::string& reason, long at_least) {
+    return wait_for([&] { return diagnostics_.count(kNode, "dropped: " + reason) >= at_least; });
+  }
+
+  ros::NodeHandle nh_;
+  Site site_;
+  BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
+  Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
+  Inbox<BeaconAnnouncement> conflicts_{nh_, "/beacons/conflicts"};
+  Diagnostics diagnostics_{nh_};
+};
+
+TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
+  player_.play(3.0);
+  ASSERT_TRUE(wait_for([&] { return announcements_.size() >= 20; })) << announcements_.size();
+  std::set<std::uint32_t> heard;
+  for (const auto& a : announcements_.all()) {
+    heard.insert(a->beacon_id);
+    const Beacon& beacon = site_.beacons.at(a->beacon_id - 11);
+    EXPECT_EQ(a->header.frame_id, "map");
+    EXPECT_NEAR(a->position.x, beacon.position_map.x(), 0.001);
+    EXPECT_NEAR(a->position.z, beacon.position_map.z(), 0.001);
+    EXPECT_EQ(a->slot, beacon.slot);
+    EXPECT_EQ(a->tones.size(), 2u);
+  }
+  EXPECT_EQ(heard, (std::set<std::uint32_t>{11, 12, 13, 14}));
+
+  // The table, as the service tells it.
+  GetBeacons table;
+  ASSERT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
+  ASSERT_EQ(table.response.beacons.size(), 4u);
+  for (const auto& entry : table.response.beacons) {
+    EXPECT_EQ(entry.source, BeaconEntry::BOTH);
+    EXPECT_FALSE(entry.conflict);
+    EXPECT_GT(entry.heard, 4u);
+  }
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "accepted") >= 20; }));
+  EXPECT_EQ(diagnostics_.level(kNode), 0) << diagnostics_.message(kNode);
+  EXPECT_EQ(diagnostics_.hardware_id(kNode), "test-hall");
+
+  // Damaged beyond the parity, and a frame of noise that no parity mends.
+  const auto good = player_.sample<lodestar::IrFrame>("/ir/frames");
+  auto damaged = good;
+  damaged.header.stamp = player_.now();
+  for (int i = 5; i < 20; ++i) damaged.octets[i] ^= 0x5a;
+  const std::size_t before = announcements_.size();
+  for (int i = 0; i < 3; ++i) player_.publish("/ir/frames", damaged);
+  EXPECT_TRUE(dropped(name(IrDrop::kUncorrectable), 3));
+
+  // Replayed: the first frame of the bag again, as if it were heard now, and as it was heard then.
+  auto replayed = good;
+  replayed.header.stamp = player_.now();
+  for (int i = 0; i < 3; ++i) player_.publish("/ir/frames", replayed);
+  EXPECT_TRUE(dropped(name(IrDrop::kSuperframe), 3));
+  for (int i = 0; i < 6; ++i) player_.publish("/ir/frames", good);
+  EXPECT_TRUE(wait_for([&] {
+    return diagnostics_.count(kNode, std::string("dropped: ") + name(IrDrop::kStamp)) +
+               diagnostics_.count(kNode, std::string("dropped: ") + name(IrDrop::kSuperframe)) >=
+           9;
+  }));
+
+  // No stamp, and levels that are no numbers.
+  auto unstamped = good;
+  unstamped.header.stamp = ros::Time();
+  player_.publish("/ir/frames", unstamped);
+  EXPECT_TRUE(dropped(name(MessageDrop::kStamp), 1));
+  auto unmeasured = replayed;
+  unmeasured.levels = {std::nanf("")};
+  player_.publish("/ir/frames", unmeasured);
+  EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 1));
+  EXPECT_EQ(announcements_.size(), before);
+
+  // The line goes on.
+  player_.play(1.0);
+  EXPECT_TRUE(wait_for([&] { return announcements_.size() > before + 5; }));
+
+  // A beacon that is not where the site file says is told on a topic of its own and is not used.
+  const auto last = announcements_.last();
+  Announcement moved = announcement(last.superframe + 1);
+  moved.position_map.x() += 1.0;
+  send(moved, last.header.stamp + ros::Duration(site_.link.slot_s * (site_.link.slot_count + 0 - last.slot)));
+  EXPECT_TRUE(wait_for([&] { return conflicts_.size() == 1; }));
+  EXPECT_TRUE(dropped(name(IrDrop::kConflict), 1));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 3; }));
+  EXPECT_GE(diagnostics_.level(kNode), 1);
+
+  // The clock jumps back: the bag begins again and its frames count again.
+  const std::size_t before_jump = announcements_.size();
+  player_.rewind();
+  player_.play(1.0);
+  EXPECT_TRUE(wait_for([&] { return announcements_.size() > before_jump + 5; }));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
+}
+
+}  // namespace

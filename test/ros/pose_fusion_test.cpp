@@ -1,0 +1,126 @@
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lodestar/BeaconSightingArray.h"
+#include "lodestar/estimation/fusion/pose_filter.hpp"
+#include "lodestar/ros/convert/message_drop.hpp"
+#include "lodestar/ros/nodelets/edge_drop.hpp"
+#include "ros/support/bag_player.hpp"
+#include "ros/support/diagnostics.hpp"
+#include "ros/support/inbox.hpp"
+#include "ros/support/truth.hpp"
+
+namespace {
+
+using namespace lodestar;
+using namespace lodestar::test;
+
+const char* const kNode = "pose_fusion";
+
+class PoseFusion : public testing::Test {
+ protected:
+  void SetUp() override {
+    player_.answered_by([this] { return sightings_.size(); });
+    ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
+    ASSERT_TRUE(wait_for([&] { return sightings_.connected() && poses_.connected() && odometry_.connected(); }));
+    player_.send_mounts();
+  }
+
+  bool dropped(const char* reason, long at_least) {
+    return wait_for([&] { return diagnostics_.count(kNode, std::string("dropped: ") + reason) >= at_least; });
+  }
+
+  ros::NodeHandle nh_;
+  BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
+  Inbox<BeaconSightingArray> sightings_{nh_, "/beacons/sightings"};
+  Inbox<geometry_msgs::PoseWithCovarianceStamped> poses_{nh_, "/pose"};
+  Inbox<nav_msgs::Odometry> odometry_{nh_, "/odometry/filtered"};
+  Diagnostics diagnostics_{nh_};
+  ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
+  ros::Publisher fix_out_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/beacons/fix", 10);
+  tf2_ros::Buffer tf_;
+  tf2_ros::TransformListener tf_listener_{tf_, nh_, false};
+};
+
+TEST_F(PoseFusion, FollowsTheTruthAndOutlivesBadInput) {
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.value(kNode, "mode") == name(FilterMode::kStarting); }));
+  EXPECT_GE(diagnostics_.level(kNode), 1);
+  player_.play(4.0);
+  ASSERT_TRUE(wait_for([&] { return poses_.size() > 50; })) << poses_.size();
+  for (const auto& pose : poses_.all()) {
+    EXPECT_EQ(pose->header.frame_id, "map");
+    const Offset offset = offset_from_truth(player_.truth(), *pose);
+    EXPECT_LT(offset.position_m, 0.15) << "at " << pose->header.stamp;
+    EXPECT_LT(offset.yaw_rad, 0.03);
+    EXPECT_GT(pose->pose.covariance[0], 0);
+  }
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.value(kNode, "mode") == name(FilterMode::kTracking); }));
+  EXPECT_EQ(diagnostics_.hardware_id(kNode), "truck");
+
+  // The odometry of the filter is the pose with a velocity: here the truck drives.
+  ASSERT_FALSE(odometry_.empty());
+  EXPECT_EQ(odometry_.last().header.frame_id, "map");
+  EXPECT_EQ(odometry_.last().child_frame_id, "base_link");
+  EXPECT_NEAR(odometry_.last().twist.twist.linear.x, 0.5, 0.1);
+
+  // map -> odom and the wheels' own pose make the pose.
+  const auto wheels = player_.last_odometry();
+  ASSERT_TRUE(wait_for([&] { return tf_.canTransform("map", "odom", ros::Time(0)); }));
+  const auto T = tf_.lookupTransform("map", "odom", ros::Time(0)).transform;
+  const double yaw = yaw_of(T.rotation);
+  geometry_msgs::PoseWithCovarianceStamped joined;
+  joined.header.stamp = wheels.header.stamp;
+  const auto& p = wheels.pose.pose.position;
+  joined.pose.pose.position.x = T.translation.x + std::cos(yaw) * p.x - std::sin(yaw) * p.y;
+  joined.pose.pose.position.y = T.translation.y + std::sin(yaw) * p.x + std::cos(yaw) * p.y;
+  joined.pose.pose.orientation = T.rotation;
+  EXPECT_LT(offset_from_truth(player_.truth(), joined).position_m, 0.15);
+
+  // Bad input of each kind.
+  auto imu = player_.sample<sensor_msgs::Imu>("/imu/data");
+  imu.header.stamp = player_.now();
+  imu.angular_velocity.z = std::nan("");
+  player_.publish("/imu/data", imu);
+  EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 1));
+  geometry_msgs::PoseWithCovarianceStamped fix = poses_.last();
+  fix.header.frame_id = "odom";
+  fix_out_.publish(fix);
+  EXPECT_TRUE(dropped(name(MessageDrop::kFrame), 1));
+  BeaconSightingArray sightings = sightings_.last();
+  sightings.header.stamp += ros::Duration(60);
+  sightings_out_.publish(sightings);
+  EXPECT_TRUE(dropped(name(EdgeDrop::kTimeStep), 1));
+  player_.publish("/odom", player_.last_odometry());
+  EXPECT_TRUE(wait_for(
+      [&] { return diagnostics_.count(kNode, std::string("not used: ") + name(FilterDrop::kDuplicate)) >= 1; }));
+
+  // The line goes on.
+  const std::size_t before = poses_.size();
+  player_.play(1.0);
+  ASSERT_TRUE(wait_for([&] { return poses_.size() > before + 10; }));
+  EXPECT_LT(offset_from_truth(player_.truth(), poses_.last()).position_m, 0.15);
+
+  // The clock jumps back: the filter starts anew at once.
+  player_.rewind();
+  player_.play(2.0);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
+  const std::size_t before_jump = poses_.size();
+  player_.play(1.0);
+  ASSERT_TRUE(wait_for([&] { return poses_.size() > before_jump + 10; }));
+  EXPECT_LT(offset_from_truth(player_.truth(), poses_.last()).position_m, 0.15);
+
+  // Wheels without light: coasting, and it says so.
+  player_.on<sensor_msgs::Image>("/camera/image_raw", [](const auto&) { return false; });
+  const double sigma = std::sqrt(poses_.last().pose.covariance[0]);
+  player_.play(2.0);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.value(kNode, "mode") == name(FilterMode::kCoasting); }));
+  EXPECT_GT(std::sqrt(poses_.last().pose.covariance[0]), sigma);
+}
+
+}  // namespace

@@ -1,0 +1,100 @@
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lodestar/BeaconSightingArray.h"
+#include "lodestar/estimation/pose/pose_solver.hpp"
+#include "lodestar/ros/convert/message_drop.hpp"
+#include "lodestar/ros/nodelets/edge_drop.hpp"
+#include "ros/support/bag_player.hpp"
+#include "ros/support/diagnostics.hpp"
+#include "ros/support/inbox.hpp"
+#include "ros/support/truth.hpp"
+
+namespace {
+
+using namespace lodestar;
+using namespace lodestar::test;
+
+const char* const kNode = "pose_solving";
+
+class PoseSolving : public testing::Test {
+ protected:
+  void SetUp() override {
+    player_.answered_by([this] { return sightings_.size(); });
+    ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
+    ASSERT_TRUE(wait_for([&] { return sightings_.connected() && fixes_.connected(); }));
+    player_.send_mounts();
+  }
+
+  bool dropped(const char* reason, long at_least) {
+    return wait_for([&] { return diagnostics_.count(kNode, std::string("dropped: ") + reason) >= at_least; });
+  }
+
+  ros::NodeHandle nh_;
+  BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
+  Inbox<BeaconSightingArray> sightings_{nh_, "/beacons/sightings"};
+  Inbox<geometry_msgs::PoseWithCovarianceStamped> fixes_{nh_, "/beacons/fix"};
+  Diagnostics diagnostics_{nh_};
+  ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
+};
+
+TEST_F(PoseSolving, FixesLieAtTheTruthAndBadInputIsCounted) {
+  player_.play(3.0);
+  ASSERT_TRUE(wait_for([&] { return fixes_.size() > 20; })) << fixes_.size();
+  for (const auto& fix : fixes_.all()) {
+    EXPECT_EQ(fix->header.frame_id, "map");
+    const Offset offset = offset_from_truth(player_.truth(), *fix);
+    EXPECT_LT(offset.position_m, 0.10) << "at " << fix->header.stamp;
+    EXPECT_LT(offset.yaw_rad, 0.02);
+    EXPECT_GT(fix->pose.covariance[0], 0);
+  }
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.level(kNode) == 0; })) << diagnostics_.message(kNode);
+
+  // Sightings that are no numbers, and too few of them.
+  const std::size_t before = fixes_.size();
+  BeaconSightingArray bad = sightings_.last();
+  ASSERT_FALSE(bad.sightings.empty());
+  bad.sightings[0].u_px = std::numeric_limits<double>::quiet_NaN();
+  sightings_out_.publish(bad);
+  EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 1));
+  BeaconSightingArray one = sightings_.last();
+  one.sightings.resize(1);
+  const long lonely = diagnostics_.count(kNode, "no fix: " + std::string(name(NoFix::kTooFewBeacons)));
+  sightings_out_.publish(one);
+  EXPECT_TRUE(wait_for(
+      [&] { return diagnostics_.count(kNode, "no fix: " + std::string(name(NoFix::kTooFewBeacons))) > lonely; }));
+  auto imu = player_.sample<sensor_msgs::Imu>("/imu/data");
+  imu.header.stamp = player_.now();
+  imu.linear_acceleration.z = std::nan("");
+  player_.publish("/imu/data", imu);
+  EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 2));
+  imu.header.frame_id = "nowhere";
+  player_.publish("/imu/data", imu);
+  EXPECT_TRUE(dropped(name(EdgeDrop::kNoMount), 1));
+  auto odometry = player_.sample<nav_msgs::Odometry>("/odom");
+  odometry.header.stamp = player_.now();
+  odometry.child_frame_id = "trailer";
+  player_.publish("/odom", odometry);
+  EXPECT_TRUE(dropped(name(MessageDrop::kFrame), 1));
+  auto info = player_.sample<sensor_msgs::CameraInfo>("/camera/camera_info");
+  info.D.assign(4, std::nan(""));
+  player_.publish("/camera/camera_info", info);
+  EXPECT_TRUE(dropped(name(EdgeDrop::kCameraInfo), 1));
+  EXPECT_EQ(fixes_.size(), before);
+
+  // The line goes on, also after the clock jumped back.
+  player_.play(1.0);
+  EXPECT_TRUE(wait_for([&] { return fixes_.size() > before + 5; }));
+  player_.rewind();
+  player_.play(2.0);
+  const std::size_t before_jump = fixes_.size();
+  player_.play(1.0);
+  EXPECT_TRUE(wait_for([&] { return fixes_.size() > before_jump + 5; }));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
+  EXPECT_LT(offset_from_truth(player_.truth(), fixes_.last()).position_m, 0.10);
+}
+
+}  // namespace

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
+
+#include <map>
+#include <string>
+
+namespace lodestar::test {
+
+/// The latest word of each node in /diagnostics.
+class Diagnostics {
+ public:
+  explicit Diagnostics(ros::NodeHandle& nh)
+      : subscriber_(nh.subscribe("/diagnostics", 100, &Diagnostics::take, this)) {}
+
+  bool heard(const std::string& node) const { return latest_.count(node) > 0; }
+  int level(const std::string& node) const { return heard(node) ? latest_.at(node).level : -1; }
+  std::string message(const std::string& node) const { return heard(node) ? latest_.at(node).message : ""; }
+  std::string hardware_id(const std::string& node) const { return heard(node) ? latest_.at(node).hardware_id : ""; }
+
+  /// Empty when the node does not report the key.
+  std::string value(const std::string& node, const std::string& key) const {
+    if (!heard(node)) return "";
+    for (const auto& pair : latest_.at(node).values)
+      if (pair.key == key) return pair.value;
+    return "";
+  }
+  /// -1 when the node does not report the key.
+  long count(const std::string& node, const std::string& key) const {
+    const std::string text = value(node, key);
+    return text.empty() ? -1 : std::stol(text);
+  }
+
+ private:
+  void take(const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+    for (const auto& status : message->status) {
+      if (status.values.empty()) continue;  // the updater's own "starting up"
+      latest_[status.name.substr(0, status.name.find(':'))] = status;
+    }
+  }
+
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> latest_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace lodestar::test

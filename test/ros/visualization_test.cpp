@@ -1,0 +1,81 @@
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <sensor_msgs/Image.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "lodestar/BeaconSightingArray.h"
+#include "lodestar/ros/convert/message_drop.hpp"
+#include "ros/support/bag_player.hpp"
+#include "ros/support/diagnostics.hpp"
+#include "ros/support/inbox.hpp"
+
+namespace {
+
+using namespace lodestar;
+using namespace lodestar::test;
+
+const char* const kNode = "visualization";
+
+/// How many markers of the namespace a message adds.
+int added(const visualization_msgs::MarkerArray& array, const std::string& ns) {
+  int count = 0;
+  for (const auto& marker : array.markers) count += marker.ns == ns && marker.action == 0 ? 1 : 0;
+  return count;
+}
+
+TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
+  ros::NodeHandle nh;
+  BagPlayer player(nh, ros::param::param<std::string>("/bag", ""));
+  Inbox<visualization_msgs::MarkerArray> floor(nh, "/visualization/floor"), beacons(nh, "/visualization/beacons"),
+      truck(nh, "/visualization/truck");
+  Inbox<nav_msgs::Path> path(nh, "/visualization/path");
+  Inbox<sensor_msgs::Image> images(nh, "/beacons/image");
+  Inbox<BeaconSightingArray> sightings(nh, "/beacons/sightings");
+  Diagnostics diagnostics(nh);
+  ros::Publisher pose = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("/pose", 10);
+
+  // The site is there before anything moves, also for those who come late.
+  ASSERT_TRUE(wait_for([&] { return !floor.empty() && !beacons.empty(); }));
+  EXPECT_EQ(added(floor.last(), "floor"), 3);
+  EXPECT_EQ(added(beacons.last(), "beacons"), 4);
+  EXPECT_EQ(added(beacons.last(), "beacon ids"), 4);
+
+  ASSERT_TRUE(player.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
+  ASSERT_TRUE(wait_for([&] { return sightings.connected() && images.connected() && truck.connected(); }));
+  player.answered_by([&] { return sightings.size(); });
+  player.send_mounts();
+  player.play(4.0);
+  ASSERT_TRUE(wait_for([&] { return truck.size() > 5 && images.size() > 5 && !path.empty(); }));
+  EXPECT_GT(added(truck.last(), "truck"), 10);
+  ASSERT_EQ(added(truck.last(), "bearings"), 1);
+  EXPECT_EQ(truck.last().markers.back().points.size(), 8u) << "four beacons, two ends each";
+  EXPECT_GT(path.last().poses.size(), 3u);
+  EXPECT_EQ(images.last().encoding, "bgr8");
+  EXPECT_EQ(images.last().width, 320u);
+  // A ring is coloured, the camera is not.
+  const auto& pixels = images.last().data;
+  int coloured = 0;
+  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) coloured += pixels[i] != pixels[i + 1] ? 1 : 0;
+  EXPECT_GT(coloured, 100);
+
+  // A pose that is none, and an image cut short.
+  geometry_msgs::PoseWithCovarianceStamped bad;
+  bad.header.stamp = player.now();
+  bad.header.frame_id = "map";
+  bad.pose.pose.position.x = std::nan("");
+  bad.pose.pose.orientation.w = 1;
+  pose.publish(bad);
+  EXPECT_TRUE(wait_for(
+      [&] { return diagnostics.count(kNode, std::string("dropped: ") + name(MessageDrop::kNotFinite)) >= 1; }));
+  auto truncated = player.sample<sensor_msgs::Image>("/camera/image_raw");
+  truncated.data.resize(100);
+  player.publish("/camera/image_raw", truncated);
+  EXPECT_TRUE(wait_for(
+      [&] { return diagnostics.count(kNode, std::string("dropped: ") + name(MessageDrop::kTruncated)) >= 1; }));
+  const std::size_t before = truck.size();
+  player.play(1.0);
+  EXPECT_TRUE(wait_for([&] { return truck.size() > before; }));
+}
+
+}  // namespace
