@@ -39,7 +39,7 @@ void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
   beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [](const auto&) {});
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_,
-      [this](const ImuSample& sample) {
+      [this](const ImuSample& sample, const RigidTransform&) {
         if (stage_) stage_->add_imu(sample);
       },
       [this](const OdometrySample& sample) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <visualization_msgs/MarkerArray.h>
+
 #include <map>
 #include <set>
-
-#include <visualization_msgs/MarkerArray.h>
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
