@@ -159,7 +159,7 @@ void place(std::ostream& out, const Panel& panel, const std::string& heading) {
   out << "set lmargin at screen " << panel.left << "\nset rmargin at screen " << panel.right
       << "\nset bmargin at screen " << panel.bottom << "\nset tmargin at screen " << panel.top << "\n"
       << "set label 1 " << quoted(heading) << " at graph 0,1 offset 0,0.9 left font 'Sans,12'\n"
-      << "set key at graph 1,1 bottom right horizontal Left reverse samplen 2 width 1\n";
+      << "set key at graph 1,1.015 bottom right horizontal Left reverse samplen 1.5 width -1\n";
 }
 
 /// The largest part of `panel` in which a metre is as long in x as in y; keeps the upper left corner.
@@ -223,7 +223,7 @@ void draw_error(std::ostream& out, const std::vector<TrajectoryError::Sample>& s
     widest = std::max(widest, 2 * sigma(s));
   }
   // A wide band while the filter coasts must not press the error flat.
-  const double top = std::max(1e-6, 1.1 * std::max(highest, std::min(widest, 2 * highest)));
+  const double top = samples.empty() ? 1.0 : std::max(1e-6, 1.1 * std::max(highest, std::min(widest, 2 * highest)));
   out << "set yrange [0:" << top << "]\n"
       << "plot '-' using 1:2 with filledcurves y1=0 lc rgb '" << kBandColour << "' title 'claimed, 2 sigma', "
       << "'-' using 1:2 with lines lw 1.6 lc rgb '" << kEstimateColour << "' title 'error'\n";
