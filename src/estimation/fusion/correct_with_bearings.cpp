@@ -34,8 +34,9 @@ BeaconError beacon_error(const FilterState& state, const BeaconBearing& bearing,
   const double distance = beacon_in_camera(state, bearing.position_map, rig).norm();
   const Eigen::Matrix3d R_map_camera =
       (state.q_map_base * state.q_mount).toRotationMatrix() * rig.T_base_camera.linear();
-  const Eigen::Matrix3d lens = params.bearing_systematic_share * distance * distance * R_map_camera *
-                               bearing.covariance * R_map_camera.transpose();
+  const double own_share = 1.0 - params.bearing_noise_share - params.bearing_common_share;
+  const Eigen::Matrix3d lens =
+      own_share * distance * distance * R_map_camera * bearing.covariance * R_map_camera.transpose();
   const double survey = bearing.position_sigma_m * bearing.position_sigma_m;
   const double lens_each = 0.5 * lens.trace();
   return {lens + survey * Eigen::Matrix3d::Identity(), lens_each / (lens_each + survey + 1e-12)};
@@ -79,7 +80,7 @@ std::optional<int> offset_of(FilterState& state, const BeaconBearing& bearing, c
 std::optional<Innovation<2>> innovation(const FilterState& state, const Candidate& candidate, const Rig& rig,
                                         const PoseFilterParams& params) {
   return bearing_innovation(state, *candidate.bearing, state.offsets[candidate.offset].value, candidate.offset, rig,
-                            1.0 - params.bearing_systematic_share);
+                            params.bearing_noise_share);
 }
 
 double distance2(const FilterState& state, const Candidate& candidate, const Rig& rig, const PoseFilterParams& params) {

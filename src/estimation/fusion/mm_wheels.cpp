@@ -26,7 +26,8 @@ Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample
   m.H.block<2, 1>(0, kWheelScale) = v.head<2>();
 
   const double speed = sample.velocity_m_s.norm();
-  const double sideslip = params.sideslip_share * speed;
+  const double across = speed * (measured_angular_velocity_rad_s - x.gyro_bias).z();
+  const double sideslip = speed * params.sideslip_s2 * across;
   const double along = params.odometry_velocity_sigma_m_s;
   const double up = params.vertical_velocity_sigma_m_s;
   m.R.diagonal() << along * along, along * along + sideslip * sideslip, up * up;

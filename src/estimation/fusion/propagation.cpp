@@ -28,7 +28,9 @@ void spread(FilterState& state, const Transition& step, double dt_s, const PoseF
   walk(kGyroBias, 3, params.gyro_bias_drift_rad_s_sqrt_s);
   walk(kAccelerometerBias, 3, params.accelerometer_bias_drift_m_s2_sqrt_s);
   walk(kWheelScale, 2, params.scale_drift_sqrt_s);
-  walk(kMount, 3, params.mount_drift_rad_sqrt_s);
+  walk(kMount, 3,
+       std::hypot(params.mount_drift_rad_sqrt_s,
+                  params.lens_drift_rad_sqrt_m * std::sqrt(state.velocity.head<2>().norm())));
 }
 
 /// Right Jacobian of SO(3), to the order that a step of some milliseconds needs.
@@ -41,10 +43,14 @@ Eigen::Quaterniond turn(const Eigen::Vector3d& phi) { return Eigen::Quaterniond(
 
 InertialNoise inertial_noise(const FilterState& state, const PoseFilterParams& params) {
   const double interval = state.inputs.imu_interval_s;
-  const double scale_error = params.gyro_scale_sigma * (state.inputs.angular_velocity_rad_s - state.gyro_bias).norm();
   constexpr double kTurn_s = 2.0;  // a scale error acts over a turn, not over a sample
-  return {params.gyro_noise_rad_s * params.gyro_noise_rad_s * interval + scale_error * scale_error * kTurn_s,
-          params.accelerometer_noise_m_s2 * params.accelerometer_noise_m_s2 * interval};
+  const Eigen::Vector3d rate = state.inputs.angular_velocity_rad_s - state.gyro_bias;
+  const double gyro = params.gyro_noise_rad_s, accelerometer = params.accelerometer_noise_m_s2;
+  InertialNoise noise;
+  noise.gyro_rad2_s = (params.gyro_scale_sigma * rate).cwiseAbs2() * kTurn_s;
+  noise.gyro_rad2_s.array() += gyro * gyro * interval;
+  noise.accelerometer_m2_s3 = accelerometer * accelerometer * interval;
+  return noise;
 }
 
 bool wheels_heard(const FilterState& state) {
@@ -149,7 +155,7 @@ Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_r
   step.Q.block<3, 3>(kPosition, kPosition) = a * dt_s * dt_s * dt_s / 3.0 * I;
   step.Q.block<3, 3>(kPosition, kVelocity) = step.Q.block<3, 3>(kVelocity, kPosition) = a * dt_s * dt_s / 2.0 * I;
   step.Q.block<3, 3>(kVelocity, kVelocity) = a * dt_s * I;
-  step.Q.block<3, 3>(kRotation, kRotation) = noise.gyro_rad2_s * dt_s * I;
+  step.Q.block<3, 3>(kRotation, kRotation) = dt_s * R_middle * noise.gyro_rad2_s.asDiagonal() * R_middle.transpose();
   return step;
 }
 

@@ -46,7 +46,7 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
     state.velocity =
         R_map_base * (Eigen::Vector3d(v.x(), v.y(), 0) + angular_velocity(state, params).cross(rig.imu_position_base));
     const double along = 2.0 * params.odometry_velocity_sigma_m_s + params.odometry_scale_sigma * v.norm();
-    velocity_variance = squared(along, along + params.sideslip_share * v.norm(), params.vertical_velocity_sigma_m_s);
+    velocity_variance = squared(along, along, params.vertical_velocity_sigma_m_s);
   }
 
   // Errors of position and velocity follow from those of the fix's position and rotation.

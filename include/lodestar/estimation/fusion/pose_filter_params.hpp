@@ -21,25 +21,29 @@ struct PoseFilterParams {
   double lost_after_s = 1.0;           ///< of optical updates that all contradict the state: lost
   double start_inflation = 4.0;        ///< of the first fix's covariance: the bearings after it share its errors
 
-  double bearing_systematic_share = 0.9;  ///< of a bearing's variance that is the lens model's, not the pixel's noise
-  double bearing_correlation_s = 0.5;     ///< of the pixel's noise: detection windows overlap
-  double lens_correlation_rad = 0.5;      ///< angle over which the lens model's error changes
-  double fix_systematic_share = 0.9;      ///< of a fix's variance that stays while the vehicle stays
-  double fix_correlation_s = 0.5;         ///< of the rest
-  double fix_correlation_m = 2.0;         ///< way over which the systematic part changes
-  double odometry_correlation_s = 0.1;    ///< of the wheels' noise
+  // A correlation time is the integral of the correlation over all lags, in both directions.
+  double bearing_noise_share = 0.05;    ///< of a bearing's variance: pixel noise; all else is the lens model's error
+  double bearing_common_share = 0.2;   ///< of it: common to the whole image, which is the mount's to bear
+  double bearing_correlation_s = 0.5;   ///< of the pixel's noise: detection windows overlap
+  double lens_correlation_rad = 0.5;    ///< angle over which the lens model's error changes
+  double fix_systematic_share = 0.9;    ///< of a fix's variance that stays while the vehicle stays
+  double fix_correlation_s = 0.5;       ///< of the rest
+  double fix_correlation_m = 2.0;       ///< way over which the systematic part changes
+  double odometry_correlation_s = 0.1;  ///< of the wheels' noise
 
   double gyro_bias_drift_rad_s_sqrt_s = 2e-5;          ///< random walk
-  double accelerometer_bias_drift_m_s2_sqrt_s = 5e-4;  ///< random walk
+  double accelerometer_bias_drift_m_s2_sqrt_s = 1e-4;  ///< random walk
   double gyro_scale_sigma = 0.001;                     ///< relative; enters as noise while turning
+  double lens_drift_rad_sqrt_m = 3e-4;                 ///< random walk of the mount on the way: the part of the lens
+                                                       ///< error that the beacons in view share changes with them
   double mount_drift_rad_sqrt_s = 1e-5;                ///< random walk
   double scale_drift_sqrt_s = 1e-4;                    ///< random walk of the wheels' scales
 
-  double floor_tilt_sigma_rad = 0.005;        ///< floor and sway; without an inertial sensor only
+  double floor_tilt_sigma_rad = 0.003;        ///< floor and sway; without an inertial sensor only
   double floor_correlation_m = 1.0;           ///< way over which the floor's tilt changes
   double vehicle_acceleration_m_s2 = 1.5;     ///< what a truck does; where no inertial sensor says it
-  double vertical_velocity_sigma_m_s = 0.05;  ///< of base_link along its own z
-  double sideslip_share = 0.02;               ///< of the speed: one sigma of the wheels' error across the way
+  double vertical_velocity_sigma_m_s = 0.03;  ///< of base_link along its own z
+  double sideslip_s2 = 0.01;                  ///< slip angle (one sigma, rad) by acceleration across the way (m/s^2)
   double still_velocity_m_s = 0.005;          ///< wheels below it stand
   double still_rate_rad_s = 0.02;             ///< gyro below it (bias taken off) is quiet
   double imu_hold_s = 0.1;                    ///< an inertial sample is good for so long

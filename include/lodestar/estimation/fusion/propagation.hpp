@@ -22,7 +22,7 @@ struct Transition {
 
 /// Spectral densities of an inertial step's noise.
 struct InertialNoise {
-  double gyro_rad2_s = 0;          ///< (rad/s)^2 / Hz
+  Eigen::Vector3d gyro_rad2_s = Eigen::Vector3d::Zero();  ///< (rad/s)^2 / Hz, base_link axes
   double accelerometer_m2_s3 = 0;  ///< (m/s^2)^2 / Hz
 };
 

@@ -13,7 +13,7 @@
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 #include "lodestar/ros/nodelets/camera_input.hpp"
 #include "lodestar/ros/nodelets/estimate_input.hpp"
-#include "lodestar/ros/nodelets/frame_rate.hpp"
+#include "lodestar/line/frame_rate.hpp"
 #include "lodestar/ros/nodelets/motion_input.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"
 
