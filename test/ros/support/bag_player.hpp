@@ -35,7 +35,7 @@ class BagPlayer {
     advertise<nav_msgs::Odometry>(nh, "/odom");
     advertise<IrFrame>(nh, "/ir/frames");
     view_ = std::make_unique<rosbag::View>(bag_);
-    messages_.assign(view_->begin(), view_->end());
+    for (const rosbag::MessageInstance& message : *view_) messages_.push_back(message);
     tf_static_ = nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
     for (const auto& message : messages_) {
       if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>()) {
