@@ -100,8 +100,8 @@ ErrorMap report(const char* what, const std::vector<MapError>& errors) {
   print_row("all poses", found(errors, false));
   print_row("inside 7 x 5 m", found(errors, true));
   char title[120];
-  std::snprintf(title, sizeof title, "%s: mean %.1f cm, %zu of %zu poses", what,
-                100 * error_statistics(found(errors, false)).mean, found(errors, false).size(), errors.size());
+  std::snprintf(title, sizeof title, "%s: mean %.1f mm, %zu of %zu poses", what,
+                1e3 * error_statistics(found(errors, false)).mean, found(errors, false).size(), errors.size());
   return {title, errors};
 }
 

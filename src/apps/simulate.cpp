@@ -70,8 +70,8 @@ class BagSink {
 
  private:
   void put(Stamp received, const Image& image) {
-    writer_.write(received, image);
     writer_.write(received, intrinsics_, image.stamp);
+    writer_.write(received, image);
     ++images_;
   }
   void put(Stamp received, const sim::TrueBase& base) {

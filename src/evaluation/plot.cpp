@@ -180,7 +180,7 @@ void draw_path(std::ostream& out, const TruthTrack& truth, const std::vector<Est
     for (const Beacon& beacon : site->beacons) extent.include(beacon.position_map.head<2>());
   extent.widen(1.0);
 
-  place(out, fit({0.05, 0.43, 0.07, 0.87}, extent), "floor plan");
+  place(out, fit({0.05, 0.43, 0.07, 0.87}, extent), "floor");
   out << "set xlabel 'x, m'\nset ylabel 'y, m'\nset xrange [" << extent.min.x() << ":" << extent.max.x()
       << "]\nset yrange [" << extent.min.y() << ":" << extent.max.y() << "]\n";
   if (site) label_beacons(out, site->beacons, 0.6);
@@ -259,6 +259,29 @@ void draw_speed(std::ostream& out, const TruthTrack& truth, const std::vector<Es
     curve.point(seconds(row.stamp - zero), {seconds(row.stamp - zero), static_cast<double>(row.beacons_used)});
 }
 
+void draw_map(std::ostream& out, const ErrorMap& panel, const ErrorMapPlot& plot) {
+  double highest_mm = 0;
+  for (const MapError& e : panel.errors)
+    if (std::isfinite(e.error_m)) highest_mm = std::max(highest_mm, 1e3 * e.error_m);
+  const double half = 0.5 * plot.pitch_m;
+  out << "set title " << quoted(panel.title) << "\nset cbrange [0:" << std::max(highest_mm, 1e-3) << "]\n"
+      << "plot '-' using 1:2:(" << half << "):(" << half << "):3 with boxxyerror lc palette, "
+      << "'-' using 1:2 with points pt 2 ps 1 lc rgb '#c03030', "
+      << "'-' using 1:2 with points pt 9 ps 2 lc rgb '" << kBeaconColour << "'\n";
+  {
+    Curve curve(out);
+    for (const MapError& e : panel.errors)
+      if (std::isfinite(e.error_m)) curve.point(0, {e.position_m.x(), e.position_m.y(), 1e3 * e.error_m});
+  }
+  {
+    Curve curve(out);
+    for (const MapError& e : panel.errors)
+      if (!std::isfinite(e.error_m)) curve.point(0, {e.position_m.x(), e.position_m.y()});
+  }
+  Curve curve(out);
+  for (const Beacon& beacon : plot.beacons) curve.point(0, {beacon.position_map.x(), beacon.position_map.y()});
+}
+
 }  // namespace
 
 void plot_trajectory(const std::string& png_path, const std::string& title, const TruthTrack& truth,
@@ -290,22 +313,17 @@ void plot_trajectory(const std::string& png_path, const std::string& title, cons
 void plot_error_map(const std::string& png_path, const ErrorMapPlot& plot) {
   if (plot.panels.empty()) throw PlotError("there is no error map to draw");
   Extent extent;
-  double highest_cm = 0;
   for (const ErrorMap& panel : plot.panels)
-    for (const MapError& e : panel.errors) {
-      extent.include(e.position_m);
-      if (std::isfinite(e.error_m)) highest_cm = std::max(highest_cm, 100 * e.error_m);
-    }
+    for (const MapError& e : panel.errors) extent.include(e.position_m);
   extent.widen(0.5 * plot.pitch_m + 0.1);
 
   const int count = static_cast<int>(plot.panels.size());
-  Drawing draw(png_path, 220 + 620 * count, 660);
+  Drawing draw(png_path, 60 + 690 * count, 640);
   std::ostream& out = draw();
   out << "set multiplot title " << quoted(plot.title) << " font 'Sans,14'\n"
       << "set size ratio -1\nset xlabel 'x, m'\nset key off\nunset grid\n"
       << "set xrange [" << extent.min.x() << ":" << extent.max.x() << "]\nset yrange [" << extent.min.y() << ":"
-      << extent.max.y() << "]\n"
-      << "set cbrange [0:" << std::max(highest_cm, 1e-3) << "]\nset cblabel 'horizontal error, cm'\n"
+      << extent.max.y() << "]\nset cblabel 'horizontal error, mm' offset 0.5\n"
       << "set palette defined (0 '#f2f8fd', 0.2 '#a9d0ec', 0.45 '#4f97cf', 0.7 '#2a5d9f', 1 '#3b1a55')\n"
       << "set style fill solid 1.0 noborder\n";
   if (plot.frame_max_m != plot.frame_min_m)
@@ -314,29 +332,12 @@ void plot_error_map(const std::string& png_path, const ErrorMapPlot& plot) {
         << " front fillstyle empty border lc rgb '#303030' lw 1.5 dt 2\n";
   label_beacons(out, plot.beacons, 0.8);
   for (int i = 0; i < count; ++i) {
-    const ErrorMap& panel = plot.panels[static_cast<std::size_t>(i)];
-    const double left = 0.06 + 0.86 * i / count, right = left + 0.86 / count - 0.05;
-    const bool last = i + 1 == count;
+    const double left = (0.07 + i) / count, right = (0.80 + i) / count;
     out << "set lmargin at screen " << left << "\nset rmargin at screen " << right
-        << "\nset tmargin at screen 0.84\nset bmargin at screen 0.10\n"
-        << "set title " << quoted(panel.title) << "\nset ylabel '" << (i == 0 ? "y, m" : "") << "'\n"
-        << (last ? "set colorbox user origin screen 0.93,0.14 size screen 0.015,0.66\n" : "unset colorbox\n");
-    const double half = 0.5 * plot.pitch_m;
-    out << "plot '-' using 1:2:(" << half << "):(" << half << "):3 with boxxyerror lc palette, "
-        << "'-' using 1:2 with points pt 2 ps 1 lc rgb '#c03030', "
-        << "'-' using 1:2 with points pt 9 ps 2 lc rgb '" << kBeaconColour << "'\n";
-    {
-      Curve curve(out);
-      for (const MapError& e : panel.errors)
-        if (std::isfinite(e.error_m)) curve.point(0, {e.position_m.x(), e.position_m.y(), 100 * e.error_m});
-    }
-    {
-      Curve curve(out);
-      for (const MapError& e : panel.errors)
-        if (!std::isfinite(e.error_m)) curve.point(0, {e.position_m.x(), e.position_m.y()});
-    }
-    Curve curve(out);
-    for (const Beacon& beacon : plot.beacons) curve.point(0, {beacon.position_map.x(), beacon.position_map.y()});
+        << "\nset tmargin at screen 0.84\nset bmargin at screen 0.10\nset colorbox user origin screen "
+        << right + 0.02 / count << ",0.14 size screen " << 0.025 / count << ",0.66\nset ylabel '"
+        << (i == 0 ? "y, m" : "") << "'\n";
+    draw_map(out, plot.panels[static_cast<std::size_t>(i)], plot);
   }
   out << "unset multiplot\n";
   draw.finish();

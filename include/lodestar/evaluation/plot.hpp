@@ -36,7 +36,7 @@ struct ErrorMap {
 struct ErrorMapPlot {
   std::string title;
   double pitch_m = 0.5;
-  std::vector<ErrorMap> panels;  ///< side by side, one colour scale
+  std::vector<ErrorMap> panels;  ///< side by side, each with its own colour scale
   std::vector<Beacon> beacons;
   Eigen::Vector2d frame_min_m = Eigen::Vector2d::Zero(),
                   frame_max_m = Eigen::Vector2d::Zero();  ///< drawn when not equal
