@@ -12,11 +12,9 @@
 
 #include "cli/command_line.hpp"
 #include "cli/progress_bar.hpp"
-#include "lodestar/base/site/vehicle.hpp"
 #include "lodestar/evaluation/plot.hpp"
 #include "lodestar/evaluation/trajectory_error.hpp"
-#include "lodestar/line/localization_line.hpp"
-#include "lodestar/sim/simulation.hpp"
+#include "lodestar/sim/line_run.hpp"
 
 namespace lodestar {
 namespace {
@@ -40,12 +38,7 @@ const Eigen::Vector2d kAreaMin_m(0, 0), kAreaMax_m(7, 5);
 /// The last fix at each pose of the scenario's route; NaN where there was none.
 std::vector<MapError> run(const sim::Scenario& scenario, const std::string& label) {
   sim::Simulation simulation(scenario);
-  LocalizationLine line(scenario.site, line_params(scenario.site, Vehicle(), scenario.camera.rate_hz));
-  CameraMount mount;
-  mount.model = CameraModel::create(scenario.camera.intrinsics).value();
-  mount.T_base_camera = scenario.T_base_camera;
-  line.set_camera(mount);
-  line.set_imu(scenario.imu.T_base_imu.translation());
+  LocalizationLine line = sim::make_line(scenario);
 
   std::vector<MapError> errors;
   for (const auto& pose : scenario.route.poses)
@@ -65,16 +58,11 @@ std::vector<MapError> run(const sim::Scenario& scenario, const std::string& labe
       line.reset();
     }
     if (index < current) continue;  // of the pose before, come late
-    if (const auto* imu = std::get_if<ImuSample>(&event->data)) line.add_imu(*imu);
-    if (const auto* odometry = std::get_if<OdometrySample>(&event->data)) line.add_odometry(*odometry);
-    if (const auto* frame = std::get_if<RawIrFrame>(&event->data)) line.add_ir_frame(*frame);
-    if (const auto* image = std::get_if<Image>(&event->data)) {
-      const auto outcome = line.process(*image);
-      if (!outcome || !outcome->fix) continue;
+    bar.show(static_cast<double>(current) / static_cast<double>(errors.size()));
+    if (const auto outcome = sim::feed(line, *event); outcome && outcome->fix) {
       const RigidTransform truth = simulation.truck().T_map_base(seconds(outcome->fix->stamp - scenario.start));
       errors[index].error_m = (outcome->fix->T_map_base.translation() - truth.translation()).head<2>().norm();
     }
-    bar.show(static_cast<double>(current) / static_cast<double>(errors.size()));
   }
   return errors;
 }

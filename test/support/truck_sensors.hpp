@@ -19,6 +19,7 @@ struct SensorErrors {
   double gyro_noise_rad_s = 0.002, gyro_bias_rad_s = 0.005, gyro_scale = 0.001;
   double accelerometer_noise_m_s2 = 0.05, accelerometer_bias_m_s2 = 0.05;
   double wheel_noise_m_s = 0.03, wheel_scale = 0.02, yaw_rate_noise_rad_s = 0.01;
+  double sideslip_s2 = 0.01;  ///< slip angle by acceleration across the way, which no wheel sees
   double wheel_correlation_s = 0.05;
   double survey_m = 0.01;
   double lens_rad = 0.0013, pixel_rad = 0.0002;
@@ -28,9 +29,10 @@ struct SensorErrors {
 
   static SensorErrors none() {
     SensorErrors e;
-    for (double* sigma : {&e.gyro_noise_rad_s, &e.gyro_bias_rad_s, &e.gyro_scale, &e.accelerometer_noise_m_s2,
-                          &e.accelerometer_bias_m_s2, &e.wheel_noise_m_s, &e.wheel_scale, &e.yaw_rate_noise_rad_s,
-                          &e.survey_m, &e.lens_rad, &e.pixel_rad, &e.mount_rad, &e.fix_m, &e.fix_rad})
+    for (double* sigma :
+         {&e.gyro_noise_rad_s, &e.gyro_bias_rad_s, &e.gyro_scale, &e.accelerometer_noise_m_s2,
+          &e.accelerometer_bias_m_s2, &e.wheel_noise_m_s, &e.wheel_scale, &e.sideslip_s2, &e.yaw_rate_noise_rad_s,
+          &e.survey_m, &e.lens_rad, &e.pixel_rad, &e.mount_rad, &e.fix_m, &e.fix_rad})
       *sigma = 0;
     return e;
   }
@@ -115,6 +117,7 @@ class TruckSensors {
     accelerometer_bias_ = errors.accelerometer_bias_m_s2 * normal3();
     gyro_scale_ = Eigen::Vector3d::Ones() + errors.gyro_scale * normal3();
     wheel_scale_ = errors.wheel_scale * normal();
+    sideslip_s2_ = errors.sideslip_s2 * normal();
     yaw_rate_scale_ = errors.wheel_scale * normal();
     T_base_camera_.translation() << 0.6, 0.1, 2.0;
     T_base_camera_.linear() = rotation({0.02, -0.03, radians(90)});
@@ -143,7 +146,8 @@ class TruckSensors {
     const double n1 = speed_noise_.step(random_, dt_s), n2 = side_noise_.step(random_, dt_s);
     const double n3 = yaw_rate_noise_.step(random_, dt_s);
     if (v.norm() < 1e-6 && std::abs(yaw_rate) < 1e-6) return s;
-    s.velocity_m_s << (1 + wheel_scale_) * v.x() + n1 + slip_m_s, (1 + wheel_scale_) * v.y() + n2;
+    s.velocity_m_s << (1 + wheel_scale_) * v.x() + n1 + slip_m_s,
+        (1 + wheel_scale_) * v.y() + sideslip_s2_ * v.x() * v.x() * yaw_rate + n2;
     s.yaw_rate_rad_s = (1 + yaw_rate_scale_) * yaw_rate + n3;
     return s;
   }
@@ -220,7 +224,7 @@ class TruckSensors {
   LensError lens_;
   CorrelatedNoise speed_noise_, side_noise_, yaw_rate_noise_;
   Eigen::Vector3d gyro_bias_, gyro_scale_, accelerometer_bias_;
-  double wheel_scale_, yaw_rate_scale_;
+  double wheel_scale_, sideslip_s2_, yaw_rate_scale_;
   RigidTransform T_base_camera_ = RigidTransform::Identity();
   Eigen::Matrix3d true_mount_;
   std::map<BeaconId, std::array<CorrelatedNoise, 2>> pixel_noise_;

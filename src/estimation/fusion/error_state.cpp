@@ -25,6 +25,7 @@ CoreState boxplus(const CoreState& x, const CoreError& e) {
   y.accelerometer_bias += e.segment<3>(kAccelerometerBias);
   y.wheel_scale += e[kWheelScale];
   y.yaw_rate_scale += e[kYawRateScale];
+  y.lens_scale += e[kLensScale];
   y.q_mount = (exp_quaternion(e.segment<3>(kMount)) * x.q_mount).normalized();
   return y;
 }
@@ -38,6 +39,7 @@ CoreError boxminus(const CoreState& x2, const CoreState& x1) {
   e.segment<3>(kAccelerometerBias) = x2.accelerometer_bias - x1.accelerometer_bias;
   e[kWheelScale] = x2.wheel_scale - x1.wheel_scale;
   e[kYawRateScale] = x2.yaw_rate_scale - x1.yaw_rate_scale;
+  e[kLensScale] = x2.lens_scale - x1.lens_scale;
   e.segment<3>(kMount) = so3_log((x2.q_mount * x1.q_mount.conjugate()).toRotationMatrix());
   return e;
 }

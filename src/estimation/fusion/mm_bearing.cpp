@@ -1,5 +1,7 @@
 #include "lodestar/estimation/fusion/mm_bearing.hpp"
 
+#include <cmath>
+
 namespace lodestar::fusion {
 namespace {
 
@@ -13,12 +15,24 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& u) {
   return B;
 }
 
+/// Rotation vector that turns a direction away from the optical axis by its angle to it.
+Eigen::Vector3d away_from_axis(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(direction);
+  const double sine = across.norm();
+  if (sine < 1e-9) return Eigen::Vector3d::Zero();
+  return std::atan2(sine, direction.z()) / sine * across;
+}
+
 }  // namespace
 
 Eigen::Vector3d beacon_in_camera(const CoreState& x, const Eigen::Vector3d& beacon_map, const Rig& rig) {
   const Eigen::Vector3d camera_from_imu = rig.T_base_camera.translation() - rig.imu_position_base;
   const Eigen::Vector3d in_base = x.q_map_base.conjugate() * (beacon_map - x.position) - camera_from_imu;
   return rig.T_base_camera.linear().transpose() * (x.q_mount.conjugate() * in_base);
+}
+
+Eigen::Vector3d without_lens_scale(const Eigen::Vector3d& direction, double scale) {
+  return so3_exp(-scale / (1.0 + scale) * away_from_axis(direction)) * direction;
 }
 
 std::optional<Innovation<2>> bearing_innovation(const CoreState& x, const BeaconBearing& bearing,
@@ -29,7 +43,8 @@ std::optional<Innovation<2>> bearing_innovation(const CoreState& x, const Beacon
   const double distance = in_camera.norm();
   if (!(distance > 1e-3)) return std::nullopt;
   const Eigen::Vector3d predicted = in_camera / distance;
-  if (!(predicted.dot(bearing.direction_camera) > 0.5)) return std::nullopt;
+  const Eigen::Vector3d measured = without_lens_scale(bearing.direction_camera, x.lens_scale);
+  if (!(predicted.dot(measured) > 0.5)) return std::nullopt;
 
   const Eigen::Matrix<double, 3, 2> B = tangent_basis(predicted);
   const Eigen::Matrix3d R_camera_base =
@@ -40,10 +55,11 @@ std::optional<Innovation<2>> bearing_innovation(const CoreState& x, const Beacon
   const Eigen::Matrix<double, 2, 3> by_map = by_base * R_base_map;
 
   Innovation<2> m;
-  m.residual = B.transpose() * bearing.direction_camera;
+  m.residual = B.transpose() * measured;
   m.H.block<2, 3>(0, kPosition) = -by_map;
   m.H.block<2, 3>(0, kRotation) = by_map * skew(beacon - x.position);
   m.H.block<2, 3>(0, kMount) = by_base * skew(camera_to_beacon_base);
+  m.H.col(kLensScale) = B.transpose() * away_from_axis(measured).cross(measured) / (1.0 + x.lens_scale);
   m.offset_count = 1;
   m.offsets[0] = {offset_index, by_map};
   m.R = white_share * B.transpose() * bearing.covariance * B +

@@ -1,8 +1,16 @@
 #include "lodestar/estimation/fusion/mm_wheels.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "lodestar/base/geometry/rigid_transform.hpp"
 
 namespace lodestar::fusion {
+namespace {
+
+constexpr double kTurn_s = 2.0;
+
+}  // namespace
 
 Eigen::Vector3d velocity_base(const CoreState& x, const Eigen::Vector3d& measured_angular_velocity_rad_s,
                               const Rig& rig) {
@@ -27,10 +35,12 @@ Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample
 
   const double speed = sample.velocity_m_s.norm();
   const double across = speed * (measured_angular_velocity_rad_s - x.gyro_bias).z();
-  const double sideslip = speed * params.sideslip_s2 * across;
+  // Slip lasts as long as the turn, so it is no noise that the next samples average out.
+  const double lasting = std::max(1.0, kTurn_s / params.odometry_correlation_s);
+  const double sideslip_variance = lasting * std::pow(speed * params.sideslip_s2 * across, 2);
   const double along = params.odometry_velocity_sigma_m_s;
   const double up = params.vertical_velocity_sigma_m_s;
-  m.R.diagonal() << along * along, along * along + sideslip * sideslip, up * up;
+  m.R.diagonal() << along * along, along * along + sideslip_variance, up * up;
   return m;
 }
 

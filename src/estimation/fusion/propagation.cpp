@@ -28,9 +28,9 @@ void spread(FilterState& state, const Transition& step, double dt_s, const PoseF
   walk(kGyroBias, 3, params.gyro_bias_drift_rad_s_sqrt_s);
   walk(kAccelerometerBias, 3, params.accelerometer_bias_drift_m_s2_sqrt_s);
   walk(kWheelScale, 2, params.scale_drift_sqrt_s);
-  walk(kMount, 3,
-       std::hypot(params.mount_drift_rad_sqrt_s,
-                  params.lens_drift_rad_sqrt_m * std::sqrt(state.velocity.head<2>().norm())));
+  const double root_speed = std::sqrt(state.velocity.head<2>().norm());
+  walk(kMount, 3, std::hypot(params.mount_drift_rad_sqrt_s, params.lens_drift_rad_sqrt_m * root_speed));
+  walk(kLensScale, 1, params.lens_scale_drift_sqrt_m * root_speed);
 }
 
 /// Right Jacobian of SO(3), to the order that a step of some milliseconds needs.

@@ -62,6 +62,7 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
   set_sigma(state.P, kAccelerometerBias, 3, params.accelerometer_bias_m_s2);
   set_sigma(state.P, kWheelScale, 2, params.odometry_scale_sigma);
   set_sigma(state.P, kMount, 3, params.camera_mount_sigma_rad);
+  set_sigma(state.P, kLensScale, 1, params.lens_scale_sigma);
   return state;
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "support/line_run.hpp"
+#include "lodestar/sim/line_run.hpp"
 
 namespace lodestar {
 namespace {
@@ -28,7 +28,7 @@ struct Mean {
   double value() const { return sum / count; }
 };
 
-double horizontal_error_m(const test::LineStep& step) {
+double horizontal_error_m(const sim::LineStep& step) {
   return (step.outcome.estimate->T_map_base.translation() - step.T_map_base_true.translation()).head<2>().norm();
 }
 
@@ -36,7 +36,7 @@ TEST(LineAccuracy, DriveOfThreeSeeds) {
   Mean standing, moving, available;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     double first_s = -1;
-    test::run_line(scenario("drive.yaml", seed, 7.0), [&](const test::LineStep& step) {
+    sim::run_line(scenario("drive.yaml", seed, 7.0), [&](const sim::LineStep& step) {
       if (step.outcome.estimate) {
         if (first_s < 0) first_s = step.time_s;
         (step.standing ? standing : moving).add(horizontal_error_m(step));
@@ -52,7 +52,7 @@ TEST(LineAccuracy, DriveOfThreeSeeds) {
 }
 
 TEST(LineAccuracy, LampsAloneGiveNoNameAndNoFix) {
-  test::run_line(scenario("lamps_only.yaml", 2, 4.0), [&](const test::LineStep& step) {
+  sim::run_line(scenario("lamps_only.yaml", 2, 4.0), [&](const sim::LineStep& step) {
     for (const Sighting& sighting : step.outcome.sightings.sightings) EXPECT_FALSE(sighting.beacon) << step.time_s;
     EXPECT_FALSE(step.outcome.fix) << step.time_s;
     EXPECT_FALSE(step.outcome.estimate) << step.time_s;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "support/line_run.hpp"
+#include "lodestar/sim/line_run.hpp"
 
 namespace lodestar {
 namespace {
@@ -26,7 +26,7 @@ std::vector<Row> rows_now() {
   EXPECT_TRUE(scenario.ok()) << describe(scenario.error());
   std::vector<Row> rows;
   int frame = 0;
-  test::run_line(scenario.value(), [&](const test::LineStep& step) {
+  sim::run_line(scenario.value(), [&](const sim::LineStep& step) {
     if (frame++ % 10 != 0 || !step.outcome.estimate) return;
     const auto& T = step.outcome.estimate->T_map_base;
     rows.push_back({step.time_s, T.translation().x(), T.translation().y(), T.translation().z(),

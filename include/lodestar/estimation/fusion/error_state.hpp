@@ -21,7 +21,8 @@ constexpr int kAccelerometerBias = 12;  ///< m/s^2, base_link
 constexpr int kWheelScale = 15;         ///< relative
 constexpr int kYawRateScale = 16;       ///< relative
 constexpr int kMount = 17;              ///< rad, base_link
-constexpr int kCore = 20;
+constexpr int kLensScale = 20;          ///< relative, of the angle to the optical axis
+constexpr int kCore = 21;
 constexpr int kMaxOffsets = 16;  ///< source offsets of three components follow the core
 constexpr int kMaxSize = kCore + 3 * kMaxOffsets;
 
@@ -36,8 +37,9 @@ struct CoreState {
   Eigen::Quaterniond q_map_base = Eigen::Quaterniond::Identity();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();
-  double wheel_scale = 0;                                       ///< wheels say (1 + scale) times the truth
-  double yaw_rate_scale = 0;                                    ///< likewise
+  double wheel_scale = 0;     ///< wheels say (1 + scale) times the truth
+  double yaw_rate_scale = 0;  ///< likewise
+  double lens_scale = 0;      ///< the lens model says (1 + scale) times the true angle to the optical axis
   Eigen::Quaterniond q_mount = Eigen::Quaterniond::Identity();  ///< R_base_camera = q_mount * nominal R_base_camera
 };
 

@@ -14,6 +14,8 @@ struct PoseFilterParams {
   double odometry_scale_sigma = 0.02;     ///< relative; of the speed and of the yaw rate
   double camera_mount_sigma_rad = 0.002;  ///< each axis
 
+  double lens_scale_sigma = 0.001;  ///< relative, of the angle to the optical axis (a focal length's error)
+
   double gate_probability = 0.999;     ///< chi-square gate of each update
   double buffer_s = 2.0;               ///< how late a measurement may come
   double coast_after_s = 0.5;          ///< without an optical update: coasting
@@ -23,7 +25,7 @@ struct PoseFilterParams {
 
   // A correlation time is the integral of the correlation over all lags, in both directions.
   double bearing_noise_share = 0.05;    ///< of a bearing's variance: pixel noise; all else is the lens model's error
-  double bearing_common_share = 0.2;   ///< of it: common to the whole image, which is the mount's to bear
+  double bearing_common_share = 0.1;    ///< of it: common to the whole image, which is the mount's to bear
   double bearing_correlation_s = 0.5;   ///< of the pixel's noise: detection windows overlap
   double lens_correlation_rad = 0.5;    ///< angle over which the lens model's error changes
   double fix_systematic_share = 0.9;    ///< of a fix's variance that stays while the vehicle stays
@@ -34,8 +36,9 @@ struct PoseFilterParams {
   double gyro_bias_drift_rad_s_sqrt_s = 2e-5;          ///< random walk
   double accelerometer_bias_drift_m_s2_sqrt_s = 1e-4;  ///< random walk
   double gyro_scale_sigma = 0.001;                     ///< relative; enters as noise while turning
-  double lens_drift_rad_sqrt_m = 3e-4;                 ///< random walk of the mount on the way: the part of the lens
+  double lens_drift_rad_sqrt_m = 4e-4;                 ///< random walk of the mount on the way: the part of the lens
                                                        ///< error that the beacons in view share changes with them
+  double lens_scale_drift_sqrt_m = 1e-4;               ///< likewise of the lens scale
   double mount_drift_rad_sqrt_s = 1e-5;                ///< random walk
   double scale_drift_sqrt_s = 1e-4;                    ///< random walk of the wheels' scales
 

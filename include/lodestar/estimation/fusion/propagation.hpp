@@ -23,7 +23,7 @@ struct Transition {
 /// Spectral densities of an inertial step's noise.
 struct InertialNoise {
   Eigen::Vector3d gyro_rad2_s = Eigen::Vector3d::Zero();  ///< (rad/s)^2 / Hz, base_link axes
-  double accelerometer_m2_s3 = 0;  ///< (m/s^2)^2 / Hz
+  double accelerometer_m2_s3 = 0;                         ///< (m/s^2)^2 / Hz
 };
 
 /// Strapdown step over dt with the mean angular velocity and specific force of the step, as measured (biases in them).
