@@ -8,7 +8,7 @@
 namespace lodestar::fusion {
 namespace {
 
-constexpr double kTurn_s = 2.0;
+constexpr double kTurn_s = 0.5;
 
 }  // namespace
 
