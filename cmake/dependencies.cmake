@@ -2,7 +2,6 @@
 find_package(Eigen3 REQUIRED)
 find_package(Boost REQUIRED COMPONENTS system filesystem iostreams program_options)
 find_package(yaml-cpp REQUIRED)
-find_package(Ceres REQUIRED)
 find_package(mrpt-poses REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)

@@ -22,7 +22,9 @@ catkin_package(CATKIN_DEPENDS message_runtime std_msgs geometry_msgs)
 # A library or program of the edge: ROS headers count as the system's, the messages are generated first.
 function(lodestar_uses_ros target)
   target_include_directories(${target} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${target} PUBLIC ${catkin_LIBRARIES})
+  # By property: catkin_add_gtest's targets take the plain signature of target_link_libraries, all others keywords.
+  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${catkin_LIBRARIES})
+  set_property(TARGET ${target} APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${catkin_LIBRARIES})
   add_dependencies(${target} ${catkin_EXPORTED_TARGETS} ${PROJECT_NAME}_generate_messages_cpp)
   if(TARGET ${PROJECT_NAME}_gencfg)
     add_dependencies(${target} ${PROJECT_NAME}_gencfg)

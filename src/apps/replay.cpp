@@ -17,6 +17,7 @@
 
 #include "cli/command_line.hpp"
 #include "cli/progress_bar.hpp"
+#include "lodestar/line/frame_rate.hpp"
 #include "lodestar/line/localization_line.hpp"
 #include "lodestar/ros/bag/recording.hpp"
 
@@ -46,27 +47,18 @@ T value_or_throw(Result<T, Faults> result) {
 /// The camera's rate from the stamps of its first frames; the records that were read for it are kept.
 struct Opening {
   std::deque<Record> records;
-  double frame_rate_hz = 0;
+  std::optional<double> frame_rate_hz;
 };
 
 Opening read_opening(RecordingReader& reader) {
-  constexpr std::size_t kFrames = 21;
   Opening opening;
-  std::vector<Stamp> stamps;
-  while (stamps.size() < kFrames) {
+  FrameRateEstimate rate;
+  while (!opening.frame_rate_hz) {
     auto record = reader.next();
     if (!record) break;
-    if (const auto* image = std::get_if<Image>(&record->content)) stamps.push_back(image->stamp);
+    if (const auto* image = std::get_if<Image>(&record->content)) opening.frame_rate_hz = rate.add(image->stamp);
     opening.records.push_back(std::move(*record));
   }
-  std::vector<double> periods_s;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) periods_s.push_back(seconds(stamps[i] - stamps[i - 1]));
-  }
-  if (periods_s.empty()) return opening;
-  const auto middle = periods_s.begin() + static_cast<std::ptrdiff_t>(periods_s.size() / 2);
-  std::nth_element(periods_s.begin(), middle, periods_s.end());
-  opening.frame_rate_hz = 1.0 / *middle;
   return opening;
 }
 
@@ -213,9 +205,13 @@ int replay(const po::variables_map& options) {
   }
 
   Opening opening = read_opening(reader);
-  const double rate_hz = vehicle.camera_rate_hz.value_or(opening.frame_rate_hz);
-  if (rate_hz <= 0) throw UserError(bag_path + ": fewer than two images on /camera/image_raw; nothing to replay.");
-  const Faults tones = check_tones(site, {rate_hz, vehicle.mains_hz}, site_path);
+  const auto known_rate_hz = vehicle.camera_rate_hz ? vehicle.camera_rate_hz : opening.frame_rate_hz;
+  if (!known_rate_hz) {
+    throw UserError(bag_path + ": fewer than " + std::to_string(FrameRateEstimate::kFrames) +
+                    " images on /camera/image_raw, too few to tell the camera's rate; give camera.rate_hz in --vehicle.");
+  }
+  const double rate_hz = *known_rate_hz;
+  const Faults tones = check_tones(site, {rate_hz, vehicle.mains_hz, vehicle.window_frames}, site_path);
   if (!tones.empty()) throw UserError(describe(tones) + "Mend the file, then start again.");
 
   EstimateCsv csv(options["out"].as<std::string>());
@@ -233,6 +229,11 @@ int replay(const po::variables_map& options) {
   Replay replay(line, mount, csv, out_bag.get());
   {
     ProgressBar bar("replay");
+    // The calibration is received behind the image that it came with.
+    const auto calibration = std::find_if(opening.records.begin(), opening.records.end(), [](const Record& record) {
+      return std::holds_alternative<CameraIntrinsics>(record.content);
+    });
+    if (calibration != opening.records.end()) replay.feed(*calibration);
     for (const Record& record : opening.records) replay.feed(record);
     opening.records.clear();
     while (const auto record = reader.next()) {

@@ -14,12 +14,16 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_ra
   params.detector.window_frames =
       vehicle.window_frames.value_or(window_frames(site.tone_table_hz, vehicle.camera_rate_hz.value_or(frame_rate_hz)));
 
+  params.namer.require_announcement = vehicle.has_ir_receiver;
   params.solver.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
 
   params.tilt.gyro_noise_rad_s = vehicle.gyro_noise_rad_s;
   params.tilt.gyro_bias_rad_s = vehicle.gyro_bias_rad_s;
   params.tilt.accelerometer_noise_m_s2 = vehicle.accelerometer_noise_m_s2;
   params.tilt.accelerometer_bias_m_s2 = vehicle.accelerometer_bias_m_s2;
+  params.tilt.odometry_velocity_sigma_m_s = vehicle.odometry_velocity_sigma_m_s;
+  params.tilt.odometry_yaw_rate_sigma_rad_s = vehicle.odometry_yaw_rate_sigma_rad_s;
+  params.tilt.odometry_scale_sigma = vehicle.odometry_scale_sigma;
 
   params.filter.gyro_noise_rad_s = vehicle.gyro_noise_rad_s;
   params.filter.gyro_bias_rad_s = vehicle.gyro_bias_rad_s;
@@ -51,7 +55,10 @@ void LocalizationLine::set_camera(const CameraMount& camera) {
   fusion_.set_camera(camera);
 }
 
-void LocalizationLine::set_imu(const Eigen::Vector3d& imu_position_base) { fusion_.set_imu(imu_position_base); }
+void LocalizationLine::set_imu(const Eigen::Vector3d& imu_position_base) {
+  pose_.set_imu(imu_position_base);
+  fusion_.set_imu(imu_position_base);
+}
 
 void LocalizationLine::add_imu(const ImuSample& sample) {
   detection_.add_imu(sample);

@@ -26,6 +26,7 @@ PoseStage::PoseStage(const PoseSolverParams& solver, const TiltFilterParams& til
     : solver_(solver), tilt_(tilt), calibration_sigma_px_(calibration_sigma_px) {}
 
 void PoseStage::set_camera(const CameraMount& camera) { camera_ = camera; }
+void PoseStage::set_imu(const Eigen::Vector3d& imu_position_base) { tilt_.set_imu(imu_position_base); }
 void PoseStage::set_beacons(const std::vector<Beacon>& beacons) { beacons_ = beacons; }
 void PoseStage::add_imu(const ImuSample& sample) { tilt_.add_imu(sample); }
 void PoseStage::add_odometry(const OdometrySample& sample) { tilt_.add_odometry(sample); }

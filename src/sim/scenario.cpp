@@ -69,6 +69,9 @@ Result<Scenario, Faults> load_scenario(const std::string& path) {
 }
 
 Scenario ideal(Scenario scenario) {
+  scenario.imu.gyro_noise_rad_s = scenario.imu.gyro_bias_rad_s = scenario.imu.gyro_bias_walk_rad_s_sqrt_s = 0;
+  scenario.imu.accelerometer_noise_m_s2 = scenario.imu.accelerometer_bias_m_s2 = 0;
+  scenario.imu.accelerometer_bias_walk_m_s2_sqrt_s = 0;
   scenario.errors = {};
   scenario.floor = {};
   scenario.sway = {};

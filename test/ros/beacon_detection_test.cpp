@@ -21,6 +21,7 @@ class BeaconDetection : public testing::Test {
  protected:
   void SetUp() override {
     player_.answered_by([this] { return sightings_.size(); });
+    ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
     ASSERT_TRUE(wait_for([&] { return sightings_.connected(); }));
   }
@@ -57,7 +58,7 @@ class BeaconDetection : public testing::Test {
 TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
   // Images alone: no calibration, no mount. Nothing is guessed.
   player_.on<sensor_msgs::CameraInfo>("/camera/camera_info", [](const auto&) { return false; });
-  player_.play(0.6);
+  player_.play(1.0);  // the first 21 tell the frame rate
   EXPECT_TRUE(dropped(name(EdgeDrop::kNoCameraInfo), 10));
   EXPECT_GE(diagnostics_.level(kNode), 1);
 

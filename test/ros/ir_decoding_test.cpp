@@ -23,6 +23,7 @@ class IrDecoding : public testing::Test {
     const auto loaded = load_site(ros::param::param<std::string>("/site", ""));
     ASSERT_TRUE(loaded.ok());
     site_ = *loaded;
+    ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
     ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
   }

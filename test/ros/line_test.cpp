@@ -99,6 +99,10 @@ TEST_F(Line, LocalizesOnABagAndOutlivesBadInputRestartsAndTheBagsEnd) {
     nodelet::NodeletLoad load;
     load.request.name = "/" + node;
     load.request.type = node == "pose_fusion" ? "lodestar/PoseFusionNodelet" : "lodestar/BeaconDetectionNodelet";
+    // Not with a parameter that it does not know ...
+    ros::param::set("/" + node + "/no_such_thing", 1);
+    EXPECT_FALSE(ros::service::call("/lodestar_manager/load_nodelet", load) && load.response.success) << node;
+    ros::param::del("/" + node + "/no_such_thing");
     ASSERT_TRUE(ros::service::call("/lodestar_manager/load_nodelet", load)) << node;
     EXPECT_TRUE(load.response.success);
     EXPECT_TRUE(localized(20)) << node;

@@ -27,6 +27,7 @@ class PoseFusion : public testing::Test {
  protected:
   void SetUp() override {
     player_.answered_by([this] { return sightings_.size(); });
+    ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
     ASSERT_TRUE(wait_for([&] { return sightings_.connected() && poses_.connected() && odometry_.connected(); }));
     player_.send_mounts();

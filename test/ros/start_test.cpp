@@ -17,13 +17,13 @@ using namespace lodestar;
 
 const std::string kSource = LODESTAR_SOURCE_DIR;
 
-struct Run {
+struct Ended {
   int status = 0;
   std::string output;
 };
 
 /// Runs a node of the package under the name "started" until it ends by itself; at most 20 s.
-Run run(const std::string& node) {
+Ended run(const std::string& node) {
   const std::string log = "/tmp/lodestar_start_test_" + std::to_string(getpid()) + ".log";
   const std::string command =
       "timeout -s KILL 20 " + std::string(LODESTAR_PROGRAM_DIR) + "/" + node + " __name:=started > " + log + " 2>&1";
@@ -48,7 +48,7 @@ TEST_F(Start, ListsAllFaultsAtOnce) {
   ros::param::set("/started/publish_tf", "sideways");
   ros::param::set("/started/use_sightings", "yes");
   ros::param::set("/started/publish_rate", 10);
-  const Run result = run("pose_fusion_node");
+  const Ended result = run("pose_fusion_node");
   EXPECT_EQ(result.status, EXIT_FAILURE) << result.output;
   for (const char* fault :
        {"/started/publish_rate_hz: is -3, must be at least 1", "publish_tf: is 'sideways'",
@@ -62,7 +62,7 @@ TEST_F(Start, EachNodeRefusesAnUnknownParameter) {
     ros::param::del("/started");
     ros::param::set("/started/site", kSource + "/test/ros/site.yaml");
     ros::param::set("/started/no_such_thing", 1);
-    const Run result = run(node);
+    const Ended result = run(node);
     EXPECT_EQ(result.status, EXIT_FAILURE) << node << "\n" << result.output;
     EXPECT_NE(result.output.find("/started/no_such_thing: is no parameter of this node"), std::string::npos)
         << node << "\n"
@@ -75,7 +75,7 @@ TEST_F(Start, AWrongSiteFileIsRefusedWithItsLine) {
   std::ofstream(path) << "site: {name: wrong}\ntone_table_hz: [4, 6]\nbeacons:\n"
                          "  - {id: 1, position_m: [0, 0, .nan], tones_hz: [4], slot: 0}\n";
   ros::param::set("/started/site", path);
-  const Run result = run("ir_decoding_node");
+  const Ended result = run("ir_decoding_node");
   EXPECT_EQ(result.status, EXIT_FAILURE);
   EXPECT_NE(result.output.find(path + ":4:"), std::string::npos) << result.output;
   std::filesystem::remove(path);

@@ -48,6 +48,7 @@ TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
   player.play(4.0);
   ASSERT_TRUE(wait_for([&] { return truck.size() > 5 && images.size() > 5 && !path.empty(); }));
   EXPECT_GT(added(truck.last(), "truck"), 10);
+  ASSERT_EQ(added(truck.last(), "covariance"), 1);
   ASSERT_EQ(added(truck.last(), "bearings"), 1);
   EXPECT_EQ(truck.last().markers.back().points.size(), 8u) << "four beacons, two ends each";
   EXPECT_GT(path.last().poses.size(), 3u);

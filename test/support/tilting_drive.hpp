@@ -35,23 +35,28 @@ class TiltingDrive {
   double roll_rad(double t_s) const { return mean_roll_rad_ + wave_rad_ * std::sin(0.9 * t_s + phase_); }
   double pitch_rad(double t_s) const { return mean_pitch_rad_ + wave_rad_ * std::cos(0.6 * t_s + 2 * phase_); }
 
-  ImuSample imu(double t_s) {
-    const double h = 1e-4;
-    const auto rate = [&](auto&& f) { return (f(t_s + h) - f(t_s - h)) / (2 * h); };
+  Eigen::Vector3d body_rate_rad_s(double t_s) const {
     const double roll = roll_rad(t_s), pitch = pitch_rad(t_s), turn = yaw_rate_rad_s(t_s);
-    const double roll_rate = rate([this](double t) { return roll_rad(t); });
-    const double pitch_rate = rate([this](double t) { return pitch_rad(t); });
-    const Eigen::Vector3d w(roll_rate - turn * std::sin(pitch),
-                            pitch_rate * std::cos(roll) + turn * std::sin(roll) * std::cos(pitch),
-                            -pitch_rate * std::sin(roll) + turn * std::cos(roll) * std::cos(pitch));
+    const double roll_rate = slope([this](double t) { return roll_rad(t); }, t_s);
+    const double pitch_rate = slope([this](double t) { return pitch_rad(t); }, t_s);
+    return {roll_rate - turn * std::sin(pitch), pitch_rate * std::cos(roll) + turn * std::sin(roll) * std::cos(pitch),
+            -pitch_rate * std::sin(roll) + turn * std::cos(roll) * std::cos(pitch)};
+  }
+
+  ImuSample imu(double t_s) {
+    const Eigen::Vector3d w = body_rate_rad_s(t_s);
+    const Eigen::Vector3d w_dot = slope([this](double t) { return body_rate_rad_s(t); }, t_s);
+    const Eigen::Vector3d v_dot(slope([this](double t) { return speed_m_s(t); }, t_s), 0, 0);
     const Eigen::Vector3d velocity(speed_m_s(t_s), 0, 0);
-    const Eigen::Vector3d acceleration(rate([this](double t) { return speed_m_s(t); }), 0, 0);
+    const Eigen::Vector3d acceleration =
+        v_dot + w.cross(velocity) + w_dot.cross(imu_position_base) + w.cross(w.cross(imu_position_base));
+    const Eigen::Vector3d gravity =
+        rotation({roll_rad(t_s), pitch_rad(t_s), 0}).transpose() * Eigen::Vector3d(0, 0, 9.81);
     ImuSample sample;
     sample.stamp = stamp(t_s);
     sample.angular_velocity_rad_s = w + gyro_bias_ + random_.normal3(params_.gyro_noise_rad_s);
-    sample.specific_force_m_s2 = rotation({roll, pitch, 0}).transpose() * Eigen::Vector3d(0, 0, 9.81) + acceleration +
-                                 w.cross(velocity) + accelerometer_bias_ +
-                                 random_.normal3(params_.accelerometer_noise_m_s2);
+    sample.specific_force_m_s2 =
+        gravity + acceleration + accelerometer_bias_ + random_.normal3(params_.accelerometer_noise_m_s2);
     return sample;
   }
 
@@ -64,9 +69,17 @@ class TiltingDrive {
     return sample;
   }
 
+  Eigen::Vector3d imu_position_base = Eigen::Vector3d::Zero();
+
   static Stamp stamp(double t_s) { return Stamp(std::chrono::seconds(1000) + from_seconds(t_s)); }
 
  private:
+  template <class Function>
+  static auto slope(Function f, double t_s) -> decltype(f(t_s)) {
+    constexpr double kStep_s = 1e-4;
+    return (f(t_s + kStep_s) - f(t_s - kStep_s)) / (2 * kStep_s);
+  }
+
   Random random_;
   TiltFilterParams params_;
   double top_speed_m_s_, wave_rad_, phase_, mean_roll_rad_, mean_pitch_rad_;

@@ -25,6 +25,8 @@ class PoseStage {
   PoseStage(const PoseSolverParams& solver, const TiltFilterParams& tilt, double calibration_sigma_px);
 
   void set_camera(const CameraMount& camera);
+  /// Where the inertial sensor sits, in base_link (m).
+  void set_imu(const Eigen::Vector3d& imu_position_base);
   void set_beacons(const std::vector<Beacon>& beacons);
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);

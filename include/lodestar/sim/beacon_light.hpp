@@ -8,7 +8,7 @@
 namespace lodestar::sim {
 
 struct BeaconLightParams {
-  double electrons_per_ms_1m = 4e5;  ///< at full intensity, straight on
+  double electrons_per_ms_1m = 3e5;  ///< at full intensity, straight on
   double lambert_exponent = 1;
   double half_angle_rad = 1.4;
   double size_m = 0.02;

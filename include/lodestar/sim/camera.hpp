@@ -20,10 +20,10 @@ struct CameraParams {
   double exposure_s = 0.002;
   int bits = 8;               ///< 8 or 16, of image and converter
   double psf_sigma_px = 0.8;  ///< Gaussian, integrated over each pixel
-  double ambient_e = 20;      ///< electrons of background light and dark current in each pixel and exposure
-  double read_noise_e = 8;
-  double full_well_e = 10000;
-  double gain_dn_per_e = 0.025;
+  double ambient_e = 100;     ///< electrons of background light and dark current in each pixel and exposure
+  double read_noise_e = 10;
+  double full_well_e = 6000;
+  double gain_dn_per_e = 0.05;
   double black_level_dn = 8;
   double falloff_exponent = 1;  ///< of the lens: cos^n of the angle off the axis
   double half_field_rad = 1.4;  ///< off the axis; dark beyond

@@ -66,7 +66,8 @@ struct Scenario {
 /// that it names is looked for beside it, and its tones are checked against the camera's rate.
 Result<Scenario, Faults> load_scenario(const std::string& path);
 
-/// The same with every survey and calibration exact and the floor flat and stiff.
+/// The same with survey, calibration and inertial sensor exact, the floor flat and the truck stiff. What remains is the
+/// camera's noise.
 Scenario ideal(Scenario scenario);
 
 }  // namespace lodestar::sim

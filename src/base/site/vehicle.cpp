@@ -8,7 +8,9 @@ namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {{"vehicle", false}, {"camera", false}, {"imu", false}, {"odometry", false}};
+const std::vector<YamlKey> kFileKeys = {{"vehicle", false}, {"camera", false}, {"imu", false}, {"odometry", false},
+                                        {"infrared", false}};
+const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
 const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
 const std::vector<YamlKey> kCameraKeys = {
     {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false}, {"window_frames", false},
@@ -81,6 +83,7 @@ Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   read_camera(file.section("camera", kCameraKeys), vehicle);
   read_imu(file.section("imu", kImuKeys), vehicle);
   read_odometry(file.section("odometry", kOdometryKeys), vehicle);
+  vehicle.has_ir_receiver = file.section("infrared", kInfraredKeys).boolean("receiver").value_or(true);
   return vehicle;
 }
 

@@ -151,6 +151,14 @@ std::optional<std::string> YamlMap::text(const std::string& key) const {
   return std::nullopt;
 }
 
+std::optional<bool> YamlMap::boolean(const std::string& key) const {
+  const auto value = text(key);
+  if (!value) return std::nullopt;
+  if (*value == "true" || *value == "false") return *value == "true";
+  fault(key, "is " + quote(*value) + ": give true or false");
+  return std::nullopt;
+}
+
 std::optional<std::vector<YamlMap::Number>> YamlMap::numbers(const std::string& key, std::size_t min_count,
                                                              std::size_t max_count, const Limits& limits) const {
   const auto it = values_.find(key);

@@ -76,24 +76,25 @@ void name_by_place(std::vector<Sighting>& sightings, const std::vector<Beacon>& 
 }
 
 /// The one beacon that the code alone can mean: the only one that has it, or the only one of those that is heard.
-std::optional<BeaconId> meant_by(ToneSet code, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard) {
+std::optional<BeaconId> meant_by(ToneSet code, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+                                 bool require_announcement) {
   std::vector<BeaconId> with_code, with_code_heard;
   for (const Beacon& beacon : beacons) {
     if (beacon.tones != code) continue;
     with_code.push_back(beacon.id);
     if (std::find(heard.begin(), heard.end(), beacon.id) != heard.end()) with_code_heard.push_back(beacon.id);
   }
-  if (with_code.size() == 1) return with_code.front();
+  if (with_code.size() == 1 && !require_announcement) return with_code.front();
   if (with_code_heard.size() == 1) return with_code_heard.front();
   return std::nullopt;
 }
 
 void name_by_code(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
-                  const std::vector<BeaconId>& heard) {
+                  const std::vector<BeaconId>& heard, bool require_announcement) {
   for (Sighting& sighting : sightings) {
     const auto shows_it = [&](const Sighting& other) { return other.tones == sighting.tones; };
     if (!usable(sighting) || std::count_if(sightings.begin(), sightings.end(), shows_it) != 1) continue;
-    sighting.beacon = meant_by(sighting.tones, beacons, heard);
+    sighting.beacon = meant_by(sighting.tones, beacons, heard, require_announcement);
   }
 }
 
@@ -107,7 +108,7 @@ void BeaconNamer::name(Sightings& sightings, const std::vector<Beacon>& beacons,
   for (Sighting& sighting : sightings.sightings) sighting.beacon.reset();
   if (sightings.sightings.empty() || beacons.empty()) return;
   if (!estimate || !usable(*estimate)) {
-    name_by_code(sightings.sightings, beacons, heard);
+    name_by_code(sightings.sightings, beacons, heard, params_.require_announcement);
     return;
   }
   name_by_place(sightings.sightings, beacons,

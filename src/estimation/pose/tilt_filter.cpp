@@ -33,13 +33,24 @@ bool standing(const OdometrySample& s) {
 
 TiltFilter::TiltFilter(const TiltFilterParams& params) : params_(params) {}
 
-void TiltFilter::reset() { *this = TiltFilter(params_); }
+void TiltFilter::set_imu(const Eigen::Vector3d& imu_position_base) { imu_position_base_ = imu_position_base; }
+
+void TiltFilter::reset() {
+  TiltFilter fresh(params_);
+  fresh.set_imu(imu_position_base_);
+  *this = fresh;
+}
 
 void TiltFilter::restart() {
   const bool imu_ever = imu_ever_, wheels_ever = wheels_ever_;
   reset();
   imu_ever_ = imu_ever;
   wheels_ever_ = wheels_ever;
+}
+
+/// The inertial sensor's horizontal velocity over that of base_link's origin.
+Eigen::Vector2d TiltFilter::imu_over_base_m_s(const Eigen::Vector3d& turn_rad_s) const {
+  return turn_rad_s.cross(imu_position_base_).head<2>();
 }
 
 void TiltFilter::add_imu(const ImuSample& sample) {
@@ -77,7 +88,9 @@ void TiltFilter::start_with(const ImuSample& sample) {
   x_.setZero();
   x_(kRoll) = std::atan2(f.y(), f.z());
   x_(kPitch) = std::atan2(-f.x(), std::hypot(f.y(), f.z()));
-  if (odometry_) x_.segment<2>(kVelocityX) = odometry_->velocity_m_s;
+  if (odometry_) {
+    x_.segment<2>(kVelocityX) = odometry_->velocity_m_s + imu_over_base_m_s(sample.angular_velocity_rad_s);
+  }
 
   const double acceleration = !odometry_ ? kStartUnknown_m_s2 : standing(*odometry_) ? 0.0 : kStartDriving_m_s2;
   const double bias_variance = square(params_.accelerometer_bias_m_s2);
@@ -153,12 +166,15 @@ void TiltFilter::correct_by_odometry(const OdometrySample& sample) {
   const double age_s = seconds(imu_->stamp - sample.stamp);
   if (age_s > kOldOdometry_s) return;
   const double variance = square(params_.odometry_velocity_sigma_m_s) + square(kMaxAcceleration_m_s2 * age_s);
+  const Eigen::Vector2d lever =
+      imu_over_base_m_s(imu_->angular_velocity_rad_s - Eigen::Vector3d(x_.segment<3>(kGyroX)));
   for (int axis = 0; axis < 2; ++axis) {
     const int velocity = kVelocityX + axis;
+    const double base_m_s = x_(velocity) - lever(axis);
     Vector h = Vector::Zero();
     h(velocity) = 1 + x_(kScale);
-    h(kScale) = x_(velocity);
-    correct(h, sample.velocity_m_s(axis) - (1 + x_(kScale)) * x_(velocity), variance);
+    h(kScale) = base_m_s;
+    correct(h, sample.velocity_m_s(axis) - (1 + x_(kScale)) * base_m_s, variance);
   }
   Vector h = Vector::Zero();
   h(kGyroZ) = -1;

@@ -10,6 +10,7 @@ namespace lodestar {
 
 namespace {
 constexpr int kImageQueue = 10;
+constexpr std::size_t kEarlyMotion = 1000;
 }  // namespace
 
 void BeaconDetectionNodelet::onInit() {
@@ -38,13 +39,8 @@ void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), edge_->health(), edge_->vehicle().T_base_camera);
   beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [](const auto&) {});
   motion_ = std::make_unique<MotionInput>(
-      nh, *edge_,
-      [this](const ImuSample& sample) {
-        if (stage_) stage_->add_imu(sample);
-      },
-      [this](const OdometrySample& sample) {
-        if (stage_) stage_->add_odometry(sample);
-      });
+      nh, *edge_, [this](const ImuSample& sample, const RigidTransform&) { take_motion(sample); },
+      [this](const OdometrySample& sample) { take_motion(sample); });
   estimate_input_ =
       std::make_unique<EstimateInput>(nh, edge_->health(), edge_->map_frame(), [this](const StateEstimate& estimate) {
         if (stage_) stage_->set_estimate(estimate);
@@ -53,6 +49,17 @@ void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
   image_transport::ImageTransport transport(nh);
   images_ = transport.subscribe("camera/image_raw", kImageQueue, &BeaconDetectionNodelet::take_image, this,
                                 image_transport::TransportHints("raw", {}, getPrivateNodeHandle()));
+}
+
+void BeaconDetectionNodelet::take_motion(const Motion& sample) {
+  if (stage_) return add_motion(sample);
+  early_motion_.push_back(sample);
+  if (early_motion_.size() > kEarlyMotion) early_motion_.pop_front();
+}
+
+void BeaconDetectionNodelet::add_motion(const Motion& sample) {
+  if (const auto* imu = std::get_if<ImuSample>(&sample)) stage_->add_imu(*imu);
+  if (const auto* odometry = std::get_if<OdometrySample>(&sample)) stage_->add_odometry(*odometry);
 }
 
 void BeaconDetectionNodelet::tune(const BeaconDetectionConfig& config) {
@@ -76,14 +83,16 @@ void BeaconDetectionNodelet::take_image(const sensor_msgs::ImageConstPtr& messag
   if (!edge_->admit(message->header.stamp)) return;
   if (stage_) return process(*image);
 
-  waiting_.push_back(*image);
-  if (waiting_.size() > FrameRateEstimate::kFrames) waiting_.pop_front();
+  early_images_.push_back(*image);
+  if (early_images_.size() > FrameRateEstimate::kFrames) early_images_.pop_front();
   frame_rate_hz_ = rate_.add(image->stamp);
   if (!frame_rate_hz_) return;
   NODELET_INFO("the camera sends %.2f frames a second", *frame_rate_hz_);
   make_stage();
-  for (const Image& early : waiting_) process(early);
-  waiting_.clear();
+  for (const Motion& early : early_motion_) add_motion(early);
+  for (const Image& early : early_images_) process(early);
+  early_motion_.clear();
+  early_images_.clear();
 }
 
 void BeaconDetectionNodelet::process(const Image& image) {
@@ -114,7 +123,8 @@ void BeaconDetectionNodelet::report(Health::Status& status) {
 void BeaconDetectionNodelet::reset() {
   if (stage_) stage_->reset();
   beacons_->reset_time();
-  waiting_.clear();
+  early_images_.clear();
+  early_motion_.clear();
 }
 
 }  // namespace lodestar

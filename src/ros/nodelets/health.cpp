@@ -38,7 +38,7 @@ void StreamWatch::report(Health::Status& status) {
 
 Health::Health(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& task,
                const std::string& hardware_id, const StaleLimits& limits)
-    : limits_(limits), updater_(nh, private_nh, private_nh.getNamespace().substr(1)) {
+    : limits_(limits), updater_(nh, private_nh, ros::names::clean("/" + private_nh.getNamespace())) {
   updater_.setHardwareID(hardware_id);
   updater_.add(task, [this](Status& status) { run(status); });
   // Not Updater::update(): it waits for ROS time to pass, which may stand or go back.

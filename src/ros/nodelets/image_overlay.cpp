@@ -12,6 +12,7 @@ namespace lodestar {
 namespace {
 
 constexpr int kRing_px = 11;
+constexpr double kGain = 3;  // exposures are short: what is faint shall be seen
 
 std::string tones(const BeaconSighting& sighting) {
   std::string out;
@@ -28,7 +29,7 @@ cv::Mat in_colour(const Image& image) {
   const cv::Mat raw(image.height_px, image.width_px, image.bits == 8 ? CV_8UC1 : CV_16UC1,
                     const_cast<std::uint8_t*>(image.data), image.stride_bytes);
   cv::Mat grey, bgr;
-  raw.convertTo(grey, CV_8U, image.bits == 8 ? 1.0 : 1.0 / 256);
+  raw.convertTo(grey, CV_8U, image.bits == 8 ? kGain : kGain / 256);
   cv::cvtColor(grey, bgr, cv::COLOR_GRAY2BGR);
   return bgr;
 }

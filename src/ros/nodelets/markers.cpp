@@ -1,6 +1,8 @@
 #include "lodestar/ros/nodelets/markers.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "lodestar/ros/convert/transform.hpp"
@@ -101,7 +103,7 @@ MarkerArray beacon_markers(const std_msgs::Header& header, const std::map<Beacon
     name.pose.position = point(p + Eigen::Vector3d(0, 0, 0.55));
     name.scale.z = 0.7;
     name.text = std::to_string(id.value);
-    Marker stem = marker(header, "beacon stems", number, Marker::LINE_LIST, color(1, 1, 1, 0.12));
+    Marker stem = marker(header, "beacon stems", number, Marker::LINE_LIST, color(1, 1, 1, 0.2));
     stem.scale.x = 0.02;
     stem.points = {point(p), point({p.x(), p.y(), 0})};
     out.markers.insert(out.markers.end(), {lamp, name, stem});
@@ -121,6 +123,19 @@ Marker bearing_marker(const std_msgs::Header& header, const Eigen::Vector3d& cam
   }
   if (lines.points.empty()) lines.action = Marker::DELETE;
   return lines;
+}
+
+Marker covariance_marker(const std_msgs::Header& header, const PoseEstimate& pose) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(pose.covariance.topLeftCorner<2, 2>());
+  const Eigen::Vector2d diameters = 2 * 3 * kCovarianceScale * axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Eigen::Vector2d longest = axes.eigenvectors().col(1);
+  Marker ellipse = marker(header, "covariance", 0, Marker::CYLINDER, color(1.0, 0.35, 0.75, 0.6));
+  RigidTransform T_map_ellipse = RigidTransform::Identity();
+  T_map_ellipse.translation() << pose.T_map_base.translation().head<2>(), 0.02;
+  T_map_ellipse.linear() = rotation({0, 0, std::atan2(longest.y(), longest.x())});
+  ellipse.pose = pose_message(T_map_ellipse);
+  set_scale(ellipse, std::max(diameters(1), 1e-3), std::max(diameters(0), 1e-3), 0.01);
+  return ellipse;
 }
 
 MarkerArray truck_markers(const std_msgs::Header& header, const RigidTransform& T_map_base) {

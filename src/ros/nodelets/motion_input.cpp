@@ -5,7 +5,7 @@
 
 namespace lodestar {
 
-MotionInput::MotionInput(ros::NodeHandle& nh, StageEdge& edge, std::function<void(const ImuSample&)> on_imu,
+MotionInput::MotionInput(ros::NodeHandle& nh, StageEdge& edge, OnImu on_imu,
                          std::function<void(const OdometrySample&)> on_odometry)
     : edge_(edge),
       imu_watch_(edge.health().watch("imu", Need::kOptional)),
@@ -22,7 +22,7 @@ void MotionInput::take_imu(const sensor_msgs::ImuConstPtr& message) {
   if (!T_base_imu) return edge_.health().drop(EdgeDrop::kNoMount);
   const auto sample = imu_from(*message, T_base_imu->linear());
   if (!sample) return edge_.health().drop(sample.error());
-  if (edge_.admit(message->header.stamp)) on_imu_(*sample);
+  if (edge_.admit(message->header.stamp)) on_imu_(*sample, *T_base_imu);
 }
 
 void MotionInput::take_odometry(const nav_msgs::OdometryConstPtr& message) {

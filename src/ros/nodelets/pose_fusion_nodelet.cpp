@@ -17,7 +17,12 @@ namespace lodestar {
 
 namespace {
 constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends on the frame rate
+
+// A little early counts as due: stamps jitter, and every second sample must not be lost to that.
+bool due(const std::optional<Stamp>& last, Stamp now, double rate_hz) {
+  return !last || now < *last || seconds(now - *last) > 0.75 / rate_hz;
 }
+}  // namespace
 
 void PoseFusionNodelet::onInit() {
   ros::NodeHandle& nh = getNodeHandle();
@@ -40,7 +45,8 @@ void PoseFusionNodelet::onInit() {
       nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_,
-      [this](const ImuSample& sample) {
+      [this](const ImuSample& sample, const RigidTransform& T_base_imu) {
+        stage_->set_imu(T_base_imu.translation());
         stage_->add_imu(sample);
         publish_if_due();
       },
@@ -96,8 +102,7 @@ void PoseFusionNodelet::take_odometry(const OdometrySample& sample) {
 
 void PoseFusionNodelet::publish_if_due() {
   const auto estimate = stage_->filter().estimate();
-  if (!estimate) return;
-  if (published_ && seconds(estimate->stamp - *published_) < 1.0 / publish_rate_hz_) return;
+  if (!estimate || !due(published_, estimate->stamp, publish_rate_hz_)) return;
   published_ = estimate->stamp;
   pose_.publish(pose_estimate_message(*estimate, edge_->map_frame()));
   odometry_.publish(odometry_message(*estimate, edge_->map_frame(), edge_->base_frame()));
@@ -108,7 +113,7 @@ void PoseFusionNodelet::publish_if_due() {
 }
 
 void PoseFusionNodelet::publish_map_odom(const OdometrySample& sample) {
-  if (transformed_ && seconds(sample.stamp - *transformed_) < 1.0 / publish_rate_hz_) return;
+  if (!due(transformed_, sample.stamp, publish_rate_hz_)) return;
   const auto estimate = stage_->filter().estimate_at(sample.stamp);
   if (!estimate) return;
   transformed_ = sample.stamp;

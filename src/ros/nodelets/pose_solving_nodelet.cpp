@@ -34,7 +34,11 @@ void PoseSolvingNodelet::onInit() {
   beacons_ = std::make_unique<BeaconInput>(
       nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); });
   motion_ = std::make_unique<MotionInput>(
-      nh, *edge_, [this](const ImuSample& sample) { stage_->add_imu(sample); },
+      nh, *edge_,
+      [this](const ImuSample& sample, const RigidTransform& T_base_imu) {
+        stage_->set_imu(T_base_imu.translation());
+        stage_->add_imu(sample);
+      },
       [this](const OdometrySample& sample) { stage_->add_odometry(sample); });
   sightings_ = nh.subscribe("beacons/sightings", 10, &PoseSolvingNodelet::take_sightings, this);
 }

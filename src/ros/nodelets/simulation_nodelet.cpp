@@ -22,6 +22,7 @@ namespace lodestar {
 
 namespace {
 constexpr double kStep_s = 0.002;
+constexpr Duration kClockStep = std::chrono::milliseconds(5);
 constexpr double kLongestStep_s = 0.05;  // beyond it simulated time slows down rather than bursts
 const char* const kBase = "base_link";
 const char* const kOdom = "odom";
@@ -86,7 +87,8 @@ void SimulationNodelet::step() {
   behind_s_ += elapsed_s - step_s;
   stepped_ = now;
   clock_ += from_seconds(step_s * speed_);
-  if (publish_clock_) {
+  if (publish_clock_ && (clock_ - told_clock_) >= kClockStep) {
+    told_clock_ = clock_;
     rosgraph_msgs::Clock clock;
     clock.clock = ros_time(clock_);
     clock_publisher_.publish(clock);

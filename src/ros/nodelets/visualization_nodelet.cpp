@@ -72,6 +72,7 @@ void VisualizationNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStam
   if (!pose) return edge_->health().drop(pose.error());
   if (!edge_->admit(message->header.stamp) || !due(truck_drawn_, message->header.stamp)) return;
   visualization_msgs::MarkerArray markers = truck_markers(message->header, pose->T_map_base);
+  markers.markers.push_back(covariance_marker(message->header, *pose));
   const auto& surveyed = edge_->vehicle().T_base_camera;
   if (const auto T_base_camera = surveyed ? surveyed : edge_->mounts().T_base(camera_frame_)) {
     const Eigen::Vector3d camera_map = (pose->T_map_base * *T_base_camera).translation();

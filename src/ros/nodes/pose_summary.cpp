@@ -1,5 +1,5 @@
 // Prints where the truck is and how far that is from the truth, once a second: what scripts/demo shows without a
-// display. Ends after ~seconds of wall time (0: never); exits non-zero when no pose came.
+// display. `pose_summary [seconds]` ends after that wall time, or never; exits non-zero when no pose came.
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
     ros::WallDuration(0.1).sleep();
   }
   ros::NodeHandle node;
-  const double seconds = ros::param::param("~seconds", 0.0);
+  const double seconds = argc > 1 ? std::atof(argv[1]) : 0;
   lodestar::PoseSummary summary(node);
   const ros::WallTime start = ros::WallTime::now();
   ros::WallTime printed = start;

@@ -24,8 +24,9 @@ LineSetup read_line_setup(ParamReader& params) {
     }
   }
   if (setup.vehicle.camera_rate_hz && !setup.site.tone_table_hz.empty()) {
-    params.add(
-        check_tones(setup.site, {*setup.vehicle.camera_rate_hz, setup.vehicle.mains_hz}, params.text("site", "")));
+    params.add(check_tones(setup.site,
+                           {*setup.vehicle.camera_rate_hz, setup.vehicle.mains_hz, setup.vehicle.window_frames},
+                           params.text("site", "")));
   }
   return setup;
 }

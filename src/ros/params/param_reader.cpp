@@ -1,6 +1,7 @@
 #include "lodestar/ros/params/param_reader.hpp"
 
 #include <ros/console.h>
+#include <ros/names.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,7 +126,8 @@ void ParamReader::add(const Faults& faults) { faults_.insert(faults_.end(), faul
 
 Faults ParamReader::faults() const {
   Faults all = faults_;
-  const std::string prefix = private_nh_.getNamespace() + "/";
+  // A nodelet's handle may lack the leading slash.
+  const std::string prefix = ros::names::clean("/" + private_nh_.getNamespace()) + "/";
   std::vector<std::string> names;
   private_nh_.getParamNames(names);
   std::set<std::string> unknown;

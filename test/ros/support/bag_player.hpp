@@ -35,7 +35,7 @@ class BagPlayer {
     advertise<nav_msgs::Odometry>(nh, "/odom");
     advertise<IrFrame>(nh, "/ir/frames");
     view_ = std::make_unique<rosbag::View>(bag_);
-    messages_.assign(view_->begin(), view_->end());
+    for (const rosbag::MessageInstance& message : *view_) messages_.push_back(message);
     tf_static_ = nh.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
     for (const auto& message : messages_) {
       if (const auto truth = message.instantiate<geometry_msgs::PoseStamped>()) {
@@ -115,8 +115,11 @@ class BagPlayer {
   void send_clock(const ros::Time& time) {
     rosgraph_msgs::Clock clock;
     clock.clock = time;
-    if (time != now_) clock_.publish(clock);
+    if (time == now_) return;
+    clock_.publish(clock);
     now_ = time;
+    ros::spinOnce();
+    ros::WallDuration(0.001).sleep();
   }
 
   void send(const rosbag::MessageInstance& message) {
@@ -125,12 +128,9 @@ class BagPlayer {
     const std::size_t before = answers_ ? answers_() : 0;
     sender->second(message);
     if (message.getTopic() != "/camera/image_raw") return;
-    if (answers_) {
-      wait_for([&] { return answers_() > before; }, 0.15);
-    } else {
-      ros::WallDuration(0.02).sleep();
-      ros::spinOnce();
-    }
+    if (!answers_) return;
+    // Whoever answered the image before will answer this one; whoever did not may never.
+    answering_ = wait_for([&] { return answers_() > before; }, answering_ ? 3.0 : 0.1);
   }
 
   rosbag::Bag bag_;
@@ -141,6 +141,7 @@ class BagPlayer {
   std::vector<geometry_msgs::PoseStamped> truth_;
   tf2_msgs::TFMessageConstPtr mounts_;
   std::function<std::size_t()> answers_;
+  bool answering_ = false;
   std::map<std::string, std::function<bool(const rosbag::MessageInstance&)>> filters_;
   std::map<std::string, std::function<void(const rosbag::MessageInstance&)>> senders_;
   std::map<std::string, ros::Publisher> publishers_;

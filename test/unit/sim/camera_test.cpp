@@ -13,6 +13,11 @@ namespace {
 
 CameraParams small_camera() {
   CameraParams params;
+  params.ambient_e = 20;
+  params.read_noise_e = 8;
+  params.full_well_e = 10000;
+  params.gain_dn_per_e = 0.025;
+  params.black_level_dn = 8;
   params.intrinsics.width_px = 160;
   params.intrinsics.height_px = 120;
   params.intrinsics.fx_px = params.intrinsics.fy_px = 60;

@@ -130,7 +130,7 @@ TEST(Scenarios, PaperHasItsPoses) {
     }
     EXPECT_EQ(inside, 140);
     EXPECT_NEAR((centre - Eigen::Vector2d(3.5, 2.5)).norm(), 0, 1e-9);
-    EXPECT_NEAR(*scenario->duration_s, 288 * 0.64, 1e-9);
+    EXPECT_NEAR(*scenario->duration_s, 288 * 0.8, 1e-9);
   }
 }
 

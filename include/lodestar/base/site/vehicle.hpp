@@ -19,6 +19,7 @@ struct Vehicle {
   std::optional<int> window_frames;             ///< empty: window_frames(tone table, rate)
   std::optional<double> camera_rate_hz;         ///< empty: from the stamps
   double camera_time_offset_s = 0;              ///< added to each image's stamp
+  bool has_ir_receiver = true;                  ///< off: blobs are named by their code though nothing was announced
   double mains_hz = 50;                         ///< 50 or 60
   double calibration_sigma_px = 0.3;            ///< of the lens model, common to neighbouring pixels
   double gyro_noise_rad_s = 0.002;              ///< white, each sample

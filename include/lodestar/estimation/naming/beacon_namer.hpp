@@ -14,6 +14,8 @@ struct BeaconNamerParams {
   double gate_probability = 0.999;   ///< of a true beacon to lie inside the gate around its predicted pixel
   double margin_chi2 = 9.0;          ///< the next best beacon (or blob) must be worse by this squared distance
   double model_sigma_px = 1.0;       ///< lens, mount and survey, beside the sighting's and the pose's covariance
+  bool require_announcement = false; ///< without a pose, name only beacons that are heard: the mirror image of one far
+                                     ///< away carries a true code, but its announcement does not come along
 };
 
 /// Which beacon a blob is: its code, and where codes are in use more than once, the place where the predicted pose

@@ -25,11 +25,13 @@ struct TiltFilterParams {
 ///
 /// Samples with NaN, of an older or equal stamp, are ignored. Time that goes back, or stands out, by more than a second
 /// starts the filter anew. Without wheel odometry the vehicle is taken to creep (1 m/s, one sigma).
-/// It assumes that the inertial sensor sits near base_link: the acceleration that turning makes at a distance from it
-/// is not modelled.
 class TiltFilter {
  public:
   explicit TiltFilter(const TiltFilterParams& params);
+
+  /// Where the inertial sensor sits, in base_link (m); at its origin until told. In a turn it feels more or less than
+  /// the origin does. Survives reset().
+  void set_imu(const Eigen::Vector3d& imu_position_base);
 
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
@@ -41,11 +43,13 @@ class TiltFilter {
   void reset();
 
  private:
+  // The velocity is the inertial sensor's own.
   enum Index { kRoll, kPitch, kGyroX, kGyroY, kGyroZ, kVelocityX, kVelocityY, kScale, kAccelX, kAccelY, kSize };
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
   void restart();
+  Eigen::Vector2d imu_over_base_m_s(const Eigen::Vector3d& turn_rad_s) const;
   void start_with(const ImuSample& sample);
   void predict(const ImuSample& sample, double dt_s);
   void take_pending_odometry();
@@ -54,6 +58,7 @@ class TiltFilter {
   void correct(const Vector& h, double innovation, double variance);
 
   TiltFilterParams params_;
+  Eigen::Vector3d imu_position_base_ = Eigen::Vector3d::Zero();
   bool imu_ever_ = false, wheels_ever_ = false;
   int samples_ = 0;                                            ///< since the start
   Eigen::Vector3d mean_force_m_s2_ = Eigen::Vector3d::Zero();  ///< of the first samples

@@ -7,13 +7,14 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "lodestar/BeaconDetectionConfig.h"
+#include "lodestar/line/frame_rate.hpp"
 #include "lodestar/line/localization_line.hpp"
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 #include "lodestar/ros/nodelets/camera_input.hpp"
 #include "lodestar/ros/nodelets/estimate_input.hpp"
-#include "lodestar/ros/nodelets/frame_rate.hpp"
 #include "lodestar/ros/nodelets/motion_input.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"
 
@@ -22,8 +23,12 @@ namespace lodestar {
 /// `camera/image_raw` in, `beacons/sightings` out: DetectionStage as a nodelet (docs/nodes/beacon_detection.md).
 class BeaconDetectionNodelet : public nodelet::Nodelet {
  private:
+  using Motion = std::variant<ImuSample, OdometrySample>;
+
   void onInit() override;
   void start_inputs(ros::NodeHandle& nh);
+  void take_motion(const Motion& sample);
+  void add_motion(const Motion& sample);
   void tune(const BeaconDetectionConfig& config);
   void make_stage();
   void take_image(const sensor_msgs::ImageConstPtr& message);
@@ -44,7 +49,8 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   int camera_revision_ = 0;
   FrameRateEstimate rate_;
   std::optional<double> frame_rate_hz_;
-  std::deque<Image> waiting_;  ///< for the frame rate
+  std::deque<Image> early_images_;   ///< wait for the frame rate
+  std::deque<Motion> early_motion_;  ///< likewise
   Duration heard_for_{};
   std::size_t last_sightings_ = 0, last_named_ = 0;
   ros::Publisher sightings_;

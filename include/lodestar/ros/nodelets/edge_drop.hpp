@@ -4,7 +4,7 @@ namespace lodestar {
 
 /// Why a well-formed message never reached its stage. What is wrong with a message itself is a MessageDrop.
 enum class EdgeDrop {
-  kTimeStep,      ///< its stamp is more than a second from the stamps around it
+  kTimeStep,      ///< its stamp is more than two seconds from the stamps around it
   kCameraInfo,    ///< camera_info that is no lens
   kNoCameraInfo,  ///< image or sightings before the first good camera_info
   kNoMount,       ///< no transform from the sensor's frame to the base yet

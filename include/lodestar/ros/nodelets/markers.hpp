@@ -1,11 +1,12 @@
 #pragma once
 
+#include <visualization_msgs/MarkerArray.h>
+
 #include <map>
 #include <set>
 
-#include <visualization_msgs/MarkerArray.h>
-
 #include "lodestar/base/geometry/rigid_transform.hpp"
+#include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
 
 namespace lodestar {
@@ -26,6 +27,12 @@ visualization_msgs::MarkerArray beacon_markers(const std_msgs::Header& header,
 visualization_msgs::Marker bearing_marker(const std_msgs::Header& header, const Eigen::Vector3d& camera_map,
                                           const std::map<BeaconId, BeaconTable::Entry>& beacons,
                                           const std::set<BeaconId>& in_use);
+
+/// How much larger than true the ellipse of covariance_marker is: some cm would not be seen in a hall.
+constexpr double kCovarianceScale = 60;
+
+/// The ellipse of 3 sigma of x and y, kCovarianceScale times enlarged, on the floor below the truck.
+visualization_msgs::Marker covariance_marker(const std_msgs::Header& header, const PoseEstimate& pose);
 
 /// A forklift that stands at T_map_base.
 visualization_msgs::MarkerArray truck_markers(const std_msgs::Header& header, const RigidTransform& T_map_base);

@@ -14,7 +14,9 @@ namespace lodestar {
 /// `imu/data` and `odom`, turned into base_link and counted.
 class MotionInput {
  public:
-  MotionInput(ros::NodeHandle& nh, StageEdge& edge, std::function<void(const ImuSample&)> on_imu,
+  using OnImu = std::function<void(const ImuSample& sample, const RigidTransform& T_base_imu)>;
+
+  MotionInput(ros::NodeHandle& nh, StageEdge& edge, OnImu on_imu,
               std::function<void(const OdometrySample&)> on_odometry);
 
  private:
@@ -24,7 +26,7 @@ class MotionInput {
   StageEdge& edge_;
   StreamWatch& imu_watch_;
   StreamWatch& odometry_watch_;
-  std::function<void(const ImuSample&)> on_imu_;
+  OnImu on_imu_;
   std::function<void(const OdometrySample&)> on_odometry_;
   ros::Subscriber imu_, odometry_;
 };

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include <nodelet/nodelet.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
+
+#include <memory>
+#include <optional>
 
 #include "lodestar/ros/nodelets/health.hpp"
 #include "lodestar/sim/simulation.hpp"
@@ -38,8 +38,8 @@ class SimulationNodelet : public nodelet::Nodelet {
   std::unique_ptr<sim::Simulation> simulation_;
   std::optional<sim::Event> next_;
   ros::WallTime stepped_;
-  Stamp clock_;           ///< simulated time
-  double behind_s_ = 0;   ///< real time that the machine could not keep up with
+  Stamp clock_, told_clock_;  ///< simulated time, and what of it /clock has said
+  double behind_s_ = 0;       ///< real time that the machine could not keep up with
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> mounts_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
   ros::Publisher image_, camera_info_, imu_, odometry_, ir_, truth_, camera_truth_, clock_publisher_;

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <deque>
-#include <memory>
-#include <optional>
-#include <set>
-
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <image_transport/image_transport.h>
 #include <nav_msgs/Path.h>
 #include <nodelet/nodelet.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <set>
 
 #include "lodestar/BeaconSightingArray.h"
 #include "lodestar/base/measurement/image.hpp"

@@ -78,6 +78,19 @@ TEST_F(ByCode, NoCodeNoName) {
   EXPECT_FALSE(named(0));
 }
 
+TEST_F(ByCode, MayBeToldToNameOnlyWhatIsHeard) {
+  beacons_ = {beacon(kA, {1, 0, 8}, {0, 1}), beacon(kB, {-1, 0, 8}, {0, 2})};
+  seen_.sightings = {blob({1, 0, 8}, {0, 1}), blob({-1, 0, 8}, {0, 2})};
+  heard_ = {kB};
+  BeaconNamerParams params;
+  params.require_announcement = true;
+  name({}, params);
+  EXPECT_FALSE(named(0));
+  EXPECT_EQ(named(1), kB);
+  name(pose_, params);
+  EXPECT_EQ(named(0), kA);  // its place says enough
+}
+
 TEST_F(ByCode, ReusedCodeNeedsToBeHeard) {
   beacons_ = {beacon(kA, {1, 0, 8}, {0, 1}), beacon(kB, {40, 0, 8}, {0, 1}), beacon(kC, {1, 2, 8}, {0, 2})};
   seen_.sightings = {blob({1, 0, 8}, {0, 1}), blob({1, 2, 8}, {0, 2})};

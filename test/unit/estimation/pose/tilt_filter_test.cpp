@@ -98,6 +98,21 @@ TEST(TiltFilter, DrivingWithOrdinarySensors) {
   }
 }
 
+TEST(TiltFilter, SensorFarFromBaseLink) {
+  for (const bool told : {true, false}) {
+    TiltFilter filter(almost_perfect());
+    TiltingDrive truth(3, almost_perfect(), 5, 0.01);
+    truth.imu_position_base << 1.5, -0.4, 1;
+    if (told) filter.set_imu(truth.imu_position_base);
+    filter.reset();  // keeps the place
+    double worst = 0;
+    drive(filter, truth, 0, 40, [&](double t_s) {
+      if (t_s > 1) worst = std::fmax(worst, error_rad(filter, truth, t_s));
+    });
+    EXPECT_EQ(worst < 0.002, told) << worst;
+  }
+}
+
 TEST(TiltFilter, StartsWhileDriving) {
   TiltFilter filter({});
   TiltingDrive truth(4, {}, 5, 0.01);

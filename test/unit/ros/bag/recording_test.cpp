@@ -196,8 +196,10 @@ TEST_F(RecordingTest, OrderIsThatOfReceptionAcrossChunks) {
     ImuSample imu;
     imu.stamp = at(0.01 * i + 0.005);
     writer.write(imu.stamp, imu);
-    const Frame late = frame(at(0.01 * i), 200, 160);
-    writer.write(at(0.01 * i), late.image);
+    // Older than the sample before, so that a chunk, which a frame fills up, ends later than the next one begins.
+    const Stamp older = at(0.01 * i - 0.012);
+    const Frame late = frame(older, 200, 160);
+    writer.write(older, late.image);
   }
   writer.close();
 

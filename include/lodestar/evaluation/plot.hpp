@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/evaluation/trajectory_error.hpp"
+
+namespace lodestar {
+
+/// No picture; what() says why and what to do.
+struct PlotError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Draws error over time and path over the floor plan into a PNG.
+/// @param site beacons of the floor plan; null: none
+/// @throws PlotError: gnuplot is not installed, or the file cannot be written
+void plot_trajectory(const std::string& png_path, const std::string& title, const TruthTrack& truth,
+                     const std::vector<EstimateRow>& estimate, const TrajectoryError& error, const Site* site);
+
+/// Error at one place of an experiment; NaN where there was no fix.
+struct MapError {
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+  double error_m = 0;
+};
+
+/// One panel of an error map.
+struct ErrorMap {
+  std::string title;
+  std::vector<MapError> errors;
+};
+
+struct ErrorMapPlot {
+  std::string title;
+  double pitch_m = 0.5;
+  std::vector<ErrorMap> panels;  ///< side by side, each with its own colour scale
+  std::vector<Beacon> beacons;
+  Eigen::Vector2d frame_min_m = Eigen::Vector2d::Zero(),
+                  frame_max_m = Eigen::Vector2d::Zero();  ///< drawn when not equal
+};
+void plot_error_map(const std::string& png_path, const ErrorMapPlot& plot);
+
+}  // namespace lodestar

@@ -1,0 +1,39 @@
+#include "lodestar/sim/line_run.hpp"
+
+#include <variant>
+
+namespace lodestar::sim {
+
+LocalizationLine make_line(const Scenario& scenario) {
+  LocalizationLine line(scenario.site, line_params(scenario.site, Vehicle(), scenario.camera.rate_hz));
+  line.set_camera({CameraModel::create(scenario.camera.intrinsics).value(), scenario.T_base_camera});
+  line.set_imu(scenario.imu.T_base_imu.translation());
+  return line;
+}
+
+std::optional<LocalizationLine::Outcome> feed(LocalizationLine& line, const Event& event) {
+  if (const auto* imu = std::get_if<ImuSample>(&event.data)) line.add_imu(*imu);
+  if (const auto* odometry = std::get_if<OdometrySample>(&event.data)) line.add_odometry(*odometry);
+  if (const auto* frame = std::get_if<RawIrFrame>(&event.data)) line.add_ir_frame(*frame);
+  const auto* image = std::get_if<Image>(&event.data);
+  if (image == nullptr) return std::nullopt;
+  auto outcome = line.process(*image);
+  if (!outcome) return std::nullopt;
+  return std::move(outcome).value();
+}
+
+void run_line(const Scenario& scenario, const std::function<void(const LineStep&)>& visit) {
+  constexpr double kStanding_m_s = 0.05;
+  Simulation simulation(scenario);
+  LocalizationLine line = make_line(scenario);
+  while (const auto event = simulation.next()) {
+    auto outcome = feed(line, *event);
+    if (!outcome) continue;
+    const double time_s = seconds(outcome->sightings.stamp - scenario.start);
+    const auto truth = simulation.truck().motion(time_s);
+    visit({time_s, std::move(*outcome), truth.T_map_base,
+           truth.velocity_map_m_s.head<2>().norm() <= kStanding_m_s});
+  }
+}
+
+}  // namespace lodestar::sim
