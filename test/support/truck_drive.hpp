@@ -49,13 +49,12 @@ class TruckDrive {
     }
   }
 
-  /// Stamp of sample i. The first second is kept free for derivatives.
+  /// Stamp of sample i.
   static Stamp stamp(std::size_t i) {
     return Stamp(std::chrono::seconds(1000)) + Duration(static_cast<std::int64_t>(i) * 1000000000LL / kRate_hz);
   }
   std::size_t size() const { return position_.size(); }
 
-  /// Truth between the samples' instants as well (linear).
   RigidTransform T_map_base(std::size_t i) const {
     RigidTransform T = RigidTransform::Identity();
     T.translation() = position_[i];
