@@ -1,13 +1,12 @@
-// The cost of a frame's detection, beside a copy of that frame and beside the paper's way: a Goertzel recursion in double
-// precision for each pixel and tone, over the whole window, for each frame.
+// The cost of a frame's detection, beside a copy of that frame and beside the paper's way: a Goertzel recursion in
+// double precision for each pixel and tone, over the whole window, for each frame.
+
+#include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <cstring>
 #include <map>
-
 #include <vector>
-
-#include <benchmark/benchmark.h>
 
 #include "lodestar/sensing/beacon/beacon_detector.hpp"
 #include "ratio_reporter.hpp"
@@ -27,7 +26,8 @@ std::vector<Image> frames(int width_px, int height_px) {
   scene.height_px = height_px;
   for (int i = 0; i < kBeacons + kLamps; ++i) {
     const double u = width_px * (0.1 + 0.2 * (i % 5)) + 0.3, v = height_px * (0.15 + 0.2 * (i / 5)) + 0.6;
-    const double first = kTones_hz[static_cast<std::size_t>(i % 4)], second = kTones_hz[static_cast<std::size_t>(4 + i / 4 % 4)];
+    const double first = kTones_hz[static_cast<std::size_t>(i % 4)],
+                 second = kTones_hz[static_cast<std::size_t>(4 + i / 4 % 4)];
     scene.lights.push_back({test::at(u, v), i < kBeacons ? test::tones(300, {first, second}) : test::steady(400)});
   }
   std::vector<Image> images;

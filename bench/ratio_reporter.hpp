@@ -1,10 +1,10 @@
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <cstdio>
 #include <map>
 #include <string>
-
-#include <benchmark/benchmark.h>
 
 namespace lodestar {
 

@@ -25,8 +25,10 @@ constexpr char kUsage[] =
     "  accuracy --scenario config/scenarios/drive.yaml --seeds 10\n"
     "  accuracy --scenario config/scenarios/static.yaml --seeds 20 --duration 4\n"
     "\n"
-    "Each seed draws its own noise, floor, survey and calibration errors. `bound` is the Cramer-Rao bound of one fix, the root\n"
-    "mean square of the horizontal error that no unbiased solver stays below, for the noise that the line is told of: pixel, lens,\n"
+    "Each seed draws its own noise, floor, survey and calibration errors. `bound` is the Cramer-Rao bound of one fix, "
+    "the root\n"
+    "mean square of the horizontal error that no unbiased solver stays below, for the noise that the line is told of: "
+    "pixel, lens,\n"
     "survey, mount and gravity. The filter may be below it, for it uses more than one instant.\n";
 
 /// Sums over one seed, or over all.
@@ -92,12 +94,18 @@ Run run(const sim::Scenario& scenario, ProgressBar& bar, double done, double sha
 
 void print(const std::string& label, const Run& run) {
   const auto& all = run.fix;
-  std::printf("%-6s %9.1f %9.1f %9.3f %7.2f %9.1f %9.1f %11.2f\n", label.c_str(), 1e3 * run.standing.mean(run.standing.sum_m),
-              1e3 * run.moving.mean(run.moving.sum_m),
-              degrees((run.standing.yaw_rad + run.moving.yaw_rad) / static_cast<double>(run.standing.count + run.moving.count)),
-              (run.standing.nees + run.moving.nees) / static_cast<double>(run.standing.count + run.moving.count),
-              1e3 * std::sqrt(all.mean(all.square_m2)), 1e3 * std::sqrt(all.mean(run.bound_m2)),
-              100.0 * static_cast<double>(run.estimates) / static_cast<double>(run.frames));
+  const auto mean_mm = [](const Errors& errors) {
+    char text[16] = "-";
+    if (errors.count > 0) std::snprintf(text, sizeof text, "%.1f", 1e3 * errors.mean(errors.sum_m));
+    return std::string(text);
+  };
+  std::printf(
+      "%-6s %9s %9s %9.3f %7.2f %9.1f %9.1f %11.2f\n", label.c_str(), mean_mm(run.standing).c_str(),
+      mean_mm(run.moving).c_str(),
+      degrees((run.standing.yaw_rad + run.moving.yaw_rad) / static_cast<double>(run.standing.count + run.moving.count)),
+      (run.standing.nees + run.moving.nees) / static_cast<double>(run.standing.count + run.moving.count),
+      1e3 * std::sqrt(all.mean(all.square_m2)), 1e3 * std::sqrt(all.mean(run.bound_m2)),
+      100.0 * static_cast<double>(run.estimates) / static_cast<double>(run.frames));
 }
 
 int accuracy(const po::variables_map& options) {
@@ -111,8 +119,8 @@ int accuracy(const po::variables_map& options) {
   if (seeds < 1) throw UserError("--seeds is " + std::to_string(seeds) + ", it has to be 1 or more.");
 
   std::printf("%s, %g s\n%-6s %29s %7s %19s %11s\n%-6s %9s %9s %9s %7s %9s %9s %11s\n", scenario.name.c_str(),
-              *scenario.duration_s, "", "filter: mean error", "nees", "fix: rmse", "available", "seed", "rest, mm", "moving", "yaw, deg",
-              "(3)", "mm", "bound", "%");
+              *scenario.duration_s, "", "filter: mean error", "nees", "fix: rmse", "available", "seed", "rest, mm",
+              "moving", "yaw, deg", "(3)", "mm", "bound", "%");
   Run total;
   for (int i = 0; i < seeds; ++i) {
     scenario.seed = static_cast<std::uint64_t>(i + 1);
@@ -134,9 +142,8 @@ int accuracy(const po::variables_map& options) {
 int main(int argc, char** argv) {
   namespace po = boost::program_options;
   po::options_description options("Options");
-  options.add_options()
-      ("scenario", po::value<std::string>()->required(), "scenario file (YAML)")
-      ("seeds", po::value<int>()->default_value(5), "how many runs, seeds 1 to N")
-      ("duration", po::value<double>(), "seconds of each run; default: the scenario's");
+  options.add_options()("scenario", po::value<std::string>()->required(), "scenario file (YAML)")(
+      "seeds", po::value<int>()->default_value(5), "how many runs, seeds 1 to N")(
+      "duration", po::value<double>(), "seconds of each run; default: the scenario's");
   return lodestar::run_tool(argc, argv, lodestar::kUsage, options, lodestar::accuracy);
 }

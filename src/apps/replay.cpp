@@ -207,8 +207,9 @@ int replay(const po::variables_map& options) {
   Opening opening = read_opening(reader);
   const auto known_rate_hz = vehicle.camera_rate_hz ? vehicle.camera_rate_hz : opening.frame_rate_hz;
   if (!known_rate_hz) {
-    throw UserError(bag_path + ": fewer than " + std::to_string(FrameRateEstimate::kFrames) +
-                    " images on /camera/image_raw, too few to tell the camera's rate; give camera.rate_hz in --vehicle.");
+    throw UserError(
+        bag_path + ": fewer than " + std::to_string(FrameRateEstimate::kFrames) +
+        " images on /camera/image_raw, too few to tell the camera's rate; give camera.rate_hz in --vehicle.");
   }
   const double rate_hz = *known_rate_hz;
   const Faults tones = check_tones(site, {rate_hz, vehicle.mains_hz, vehicle.window_frames}, site_path);
@@ -252,11 +253,10 @@ int replay(const po::variables_map& options) {
 int main(int argc, char** argv) {
   namespace po = boost::program_options;
   po::options_description options("Options");
-  options.add_options()
-      ("site", po::value<std::string>()->required(), "site file (YAML)")
-      ("bag", po::value<std::string>()->required(), "recording to replay")
-      ("out", po::value<std::string>()->required(), "estimates, CSV")
-      ("vehicle", po::value<std::string>(), "vehicle file (YAML); without it mounts come from /tf_static")
-      ("out-bag", po::value<std::string>(), "sightings, fixes, poses and tf as a bag");
+  options.add_options()("site", po::value<std::string>()->required(), "site file (YAML)")(
+      "bag", po::value<std::string>()->required(), "recording to replay")("out", po::value<std::string>()->required(),
+                                                                          "estimates, CSV")(
+      "vehicle", po::value<std::string>(), "vehicle file (YAML); without it mounts come from /tf_static")(
+      "out-bag", po::value<std::string>(), "sightings, fixes, poses and tf as a bag");
   return lodestar::run_tool(argc, argv, lodestar::kUsage, options, lodestar::replay);
 }

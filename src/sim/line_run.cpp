@@ -31,8 +31,7 @@ void run_line(const Scenario& scenario, const std::function<void(const LineStep&
     if (!outcome) continue;
     const double time_s = seconds(outcome->sightings.stamp - scenario.start);
     const auto truth = simulation.truck().motion(time_s);
-    visit({time_s, std::move(*outcome), truth.T_map_base,
-           truth.velocity_map_m_s.head<2>().norm() <= kStanding_m_s});
+    visit({time_s, std::move(*outcome), truth.T_map_base, truth.velocity_map_m_s.head<2>().norm() <= kStanding_m_s});
   }
 }
 

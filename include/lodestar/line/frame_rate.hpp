@@ -7,9 +7,9 @@
 
 namespace lodestar {
 
-/// The camera's frame rate from its first stamps. Jitter averages out, a dropped frame counts as the periods it spans, and
-/// a rate within half a percent of a whole number is that number: cameras are set to those, and the aliases of the mains
-/// multiply what is left of the error.
+/// The camera's frame rate from its first stamps. Jitter averages out, a dropped frame counts as the periods it spans,
+/// and a rate within half a percent of a whole number is that number: cameras are set to those, and the aliases of the
+/// mains multiply what is left of the error.
 class FrameRateEstimate {
  public:
   static constexpr int kFrames = 21;

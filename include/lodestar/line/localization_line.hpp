@@ -20,8 +20,8 @@ struct LineParams {
   TiltFilterParams tilt;
   PoseFilterParams filter;
   double calibration_sigma_px = 0.3;
-  bool use_sightings = true;          ///< tightly coupled; off: the filter is fed with fixes alone
-  Duration heard_for{};               ///< how long after its announcement a beacon counts as heard
+  bool use_sightings = true;  ///< tightly coupled; off: the filter is fed with fixes alone
+  Duration heard_for{};       ///< how long after its announcement a beacon counts as heard
 };
 
 /// @param frame_rate_hz of the camera, for the window where neither file fixes it

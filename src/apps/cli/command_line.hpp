@@ -1,10 +1,9 @@
 #pragma once
 
+#include <boost/program_options.hpp>
 #include <functional>
 #include <stdexcept>
 #include <string>
-
-#include <boost/program_options.hpp>
 
 namespace lodestar {
 

@@ -20,8 +20,8 @@ void ProgressBar::show(double done) {
   if (!on_terminal_ || permille == drawn_permille_) return;
   drawn_permille_ = permille;
   const int filled = permille * kWidth / 1000;
-  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                          std::string(static_cast<std::size_t>(kWidth - filled), '.');
+  const std::string bar =
+      std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kWidth - filled), '.');
   std::fprintf(stderr, "\r%s [%s] %3d %%", label_.c_str(), bar.c_str(), permille / 10);
 }
 

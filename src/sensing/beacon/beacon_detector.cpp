@@ -11,8 +11,8 @@ namespace {
 
 using PatchArray = Eigen::Array<float, 1, Demodulation::kPixels>;
 
-constexpr double kMergePx = 3.0;         ///< two sightings closer than this are one
-constexpr double kStillImagePx = 0.3;    ///< the image stands still when its centre moves less within the window
+constexpr double kMergePx = 3.0;       ///< two sightings closer than this are one
+constexpr double kStillImagePx = 0.3;  ///< the image stands still when its centre moves less within the window
 constexpr std::size_t kMaxSpots = 256;
 
 /// Mean over each pixel's 3 x 3 neighbourhood, valid pixels only.
@@ -62,13 +62,20 @@ PatchArray coherent_amplitude(const Demodulation& patch, ToneSet code,
 
 const char* name(FrameDrop reason) {
   switch (reason) {
-    case FrameDrop::kNoCamera: return "no calibration";
-    case FrameDrop::kNoPixels: return "no pixels";
-    case FrameDrop::kFormat: return "format";
-    case FrameDrop::kSize: return "size";
-    case FrameDrop::kDuplicate: return "duplicate stamp";
-    case FrameDrop::kBackwards: return "stamp goes back";
-    case FrameDrop::kCount: break;
+    case FrameDrop::kNoCamera:
+      return "no calibration";
+    case FrameDrop::kNoPixels:
+      return "no pixels";
+    case FrameDrop::kFormat:
+      return "format";
+    case FrameDrop::kSize:
+      return "size";
+    case FrameDrop::kDuplicate:
+      return "duplicate stamp";
+    case FrameDrop::kBackwards:
+      return "stamp goes back";
+    case FrameDrop::kCount:
+      break;
   }
   return "";
 }
@@ -108,7 +115,8 @@ bool BeaconDetector::breaks_window(const Image& image) const {
   if (frames.back().bits != image.bits) return true;
   // A pause of half a window leaves the tones within it hardly to be told apart.
   const double mean_period_s =
-      frames.size() < 2 ? 0 : seconds(frames.back().stamp - frames.front().stamp) / static_cast<double>(frames.size() - 1);
+      frames.size() < 2 ? 0
+                        : seconds(frames.back().stamp - frames.front().stamp) / static_cast<double>(frames.size() - 1);
   return frames.size() > 2 && seconds(image.stamp - frames.back().stamp) > 0.5 * params_.window_frames * mean_period_s;
 }
 
@@ -119,8 +127,8 @@ double BeaconDetector::white_level(const Image& image) const {
 double BeaconDetector::power_threshold(const Image& image) const {
   const auto& frames = window_.frames();
   const double period_s = seconds(frames.back().stamp - frames.front().stamp) / static_cast<double>(frames.size() - 1);
-  const double trials_per_hour = 3600.0 / period_s * image.width_px * image.height_px *
-                                 static_cast<double>(params_.tone_table_hz.size());
+  const double trials_per_hour =
+      3600.0 / period_s * image.width_px * image.height_px * static_cast<double>(params_.tone_table_hz.size());
   // Power over variance is chi-square with two degrees of freedom: P(> x) = exp(-x / 2).
   return 2.0 * std::log(trials_per_hour / params_.false_alarms_per_hour);
 }

@@ -1,15 +1,14 @@
 #include "lodestar/sensing/beacon/blob_track.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/QR>
 
 namespace lodestar {
 namespace {
 
-constexpr double kStillPx = 0.5;          ///< paths shorter than this are points
-constexpr double kStraightPx = 6.0;       ///< shorter deviations are lines, longer ones parabolas
+constexpr double kStillPx = 0.5;           ///< paths shorter than this are points
+constexpr double kStraightPx = 6.0;        ///< shorter deviations are lines, longer ones parabolas
 constexpr double kMinElevationSine = 0.1;  ///< below it the ceiling is too far away to be a plane
 constexpr double kOutlierPx = 1.5;
 constexpr double kMinCentreSigmaPx = 0.03;  ///< of one frame's centroid
@@ -22,7 +21,8 @@ struct DeviationFit {
   Eigen::Vector2d at(double time_s) const {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double power = 1;
-    for (Eigen::Index i = 0; i < coefficients.rows(); ++i, power *= time_s) sum += power * coefficients.row(i).transpose();
+    for (Eigen::Index i = 0; i < coefficients.rows(); ++i, power *= time_s)
+      sum += power * coefficients.row(i).transpose();
     return sum;
   }
 };
@@ -44,8 +44,8 @@ DeviationFit fit(const std::vector<Deviation>& points, int order) {
   DeviationFit result;
   const auto qr = powers.colPivHouseholderQr();
   result.coefficients = qr.solve(values);
-  const double variance =
-      (values - powers * result.coefficients).squaredNorm() / std::max<double>(1.0, 2.0 * static_cast<double>(rows - order - 1));
+  const double variance = (values - powers * result.coefficients).squaredNorm() /
+                          std::max<double>(1.0, 2.0 * static_cast<double>(rows - order - 1));
   const Eigen::MatrixXd information = powers.transpose() * powers;
   const double leverage = information.ldlt().solve(Eigen::VectorXd::Unit(order + 1, 0))[0];
   result.newest_covariance =
@@ -56,9 +56,10 @@ DeviationFit fit(const std::vector<Deviation>& points, int order) {
 DeviationFit robust_fit(std::vector<Deviation> points, int order) {
   const auto keeps = static_cast<std::size_t>(order + 2);
   DeviationFit result = fit(points, order);
-  points.erase(std::remove_if(points.begin(), points.end(),
-                              [&](const Deviation& p) { return (p.value_px - result.at(p.time_s)).norm() > kOutlierPx; }),
-               points.end());
+  points.erase(
+      std::remove_if(points.begin(), points.end(),
+                     [&](const Deviation& p) { return (p.value_px - result.at(p.time_s)).norm() > kOutlierPx; }),
+      points.end());
   return points.size() >= keeps ? fit(points, order) : result;
 }
 
@@ -146,10 +147,9 @@ std::optional<BlobPath> BlobTrack::fit_path(const WindowMotion& motion) {
 
 void follow_spots(std::vector<BlobTrack>& tracks, const std::vector<Spot>& spots, const WindowMotion& motion,
                   std::size_t window_frames, std::size_t max_tracks) {
-  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
-                              [&](BlobTrack& track) {
-                                return !track.predict(motion) || !motion.camera->contains(track.pixel());
-                              }),
+  tracks.erase(std::remove_if(
+                   tracks.begin(), tracks.end(),
+                   [&](BlobTrack& track) { return !track.predict(motion) || !motion.camera->contains(track.pixel()); }),
                tracks.end());
 
   struct Pair {

@@ -1,10 +1,9 @@
 #include "lodestar/sensing/beacon/centre_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <Eigen/Cholesky>
 
 #include "lodestar/base/common/angle.hpp"
 
@@ -48,7 +47,8 @@ NormalEquations linearize(const Eigen::Vector4d& theta, const Eigen::Array<float
   NormalEquations sum;
   for (int i = 0; i < Demodulation::kPixels; ++i) {
     if (!valid[i]) continue;
-    const auto x = static_cast<std::size_t>(i % Demodulation::kSide), y = static_cast<std::size_t>(i / Demodulation::kSide);
+    const auto x = static_cast<std::size_t>(i % Demodulation::kSide),
+               y = static_cast<std::size_t>(i / Demodulation::kSide);
     const double shape = u.share[x] * v.share[y];
     const double weight = 1.0 / variance[i];
     const double residual = amplitude[i] - theta[0] * shape;

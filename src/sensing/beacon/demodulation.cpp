@@ -57,7 +57,8 @@ std::optional<Demodulation> demodulate(const FrameWindow& window, const ToneBank
   out.origin = (path.pixels.back().array().round().cast<int>() - Demodulation::kHalf).matrix();
   out.valid.setConstant(true);
 
-  Eigen::Matrix<float, Eigen::Dynamic, Demodulation::kPixels, Eigen::RowMajor> signals(out.frames, +Demodulation::kPixels);
+  Eigen::Matrix<float, Eigen::Dynamic, Demodulation::kPixels, Eigen::RowMajor> signals(out.frames,
+                                                                                       +Demodulation::kPixels);
   const PatchSampler sampler{path, static_cast<float>(white_level), out};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     float* values = signals.row(static_cast<Eigen::Index>(i)).data();

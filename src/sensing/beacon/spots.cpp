@@ -30,8 +30,8 @@ double ring_mean(const Image& image, int u, int v) {
   double sum = 0;
   int count = 0;
   for (int d = -kRingPx; d <= kRingPx; ++d) {
-    for (const auto& [x, y] : {std::pair{u + d, v - kRingPx}, std::pair{u + d, v + kRingPx}, std::pair{u - kRingPx, v + d},
-                               std::pair{u + kRingPx, v + d}}) {
+    for (const auto& [x, y] : {std::pair{u + d, v - kRingPx}, std::pair{u + d, v + kRingPx},
+                               std::pair{u - kRingPx, v + d}, std::pair{u + kRingPx, v + d}}) {
       if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) continue;
       sum += image.row<Pixel>(y)[x];
       ++count;

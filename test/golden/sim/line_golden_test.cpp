@@ -1,5 +1,5 @@
-// The whole line over a simulated drive against the estimates of an earlier day. A change of more than a few mm is either
-// a fault or an improvement; in the second case write the file anew: LODESTAR_WRITE_GOLDEN=1 golden_sim
+// The whole line over a simulated drive against the estimates of an earlier day. A change of more than a few mm is
+// either a fault or an improvement; in the second case write the file anew: LODESTAR_WRITE_GOLDEN=1 golden_sim
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "lodestar/line/frame_rate.hpp"
 
-#include <random>
-
 #include <gtest/gtest.h>
+
+#include <random>
 
 namespace lodestar {
 namespace {

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/common/ids.hpp"
 #include "lodestar/base/common/stamp.hpp"
@@ -20,8 +19,8 @@ struct Announcement {
   Eigen::Vector3d position_map = Eigen::Vector3d::Zero();  ///< m; sent in whole mm
   ToneSet tones;
   bool led_fault = false, supply_low = false, surveyed = false, is_signed = false;
-  int corrected_octets = 0;          ///< by the Reed-Solomon code
-  std::vector<float> levels;         ///< of the photodiodes, ADC full scale = 1
+  int corrected_octets = 0;   ///< by the Reed-Solomon code
+  std::vector<float> levels;  ///< of the photodiodes, ADC full scale = 1
 };
 
 }  // namespace lodestar

@@ -13,8 +13,8 @@ namespace lodestar {
 struct Image {
   Stamp stamp;  ///< middle of the exposure
   int width_px = 0, height_px = 0;
-  int bits = 8;                    ///< 8 or 16
-  std::size_t stride_bytes = 0;    ///< from one row to the next
+  int bits = 8;                  ///< 8 or 16
+  std::size_t stride_bytes = 0;  ///< from one row to the next
   const std::uint8_t* data = nullptr;
   std::shared_ptr<const void> owner;
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 #include "lodestar/base/common/ids.hpp"
 #include "lodestar/base/common/stamp.hpp"

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/common/ids.hpp"
 #include "lodestar/base/common/stamp.hpp"
@@ -13,11 +12,11 @@ namespace lodestar {
 
 /// A blob in the image that flashes in a code.
 struct Sighting {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();            ///< px, centre of the upper left pixel is (0, 0)
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();   ///< px^2
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();           ///< px, centre of the upper left pixel is (0, 0)
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< px^2
   ToneSet tones;
-  double snr_db = 0;         ///< power of the weakest tone of the code over the noise, after the window
-  bool saturated = false;    ///< a pixel of the blob clipped within the window
+  double snr_db = 0;               ///< power of the weakest tone of the code over the noise, after the window
+  bool saturated = false;          ///< a pixel of the blob clipped within the window
   std::optional<BeaconId> beacon;  ///< empty: not named
 };
 

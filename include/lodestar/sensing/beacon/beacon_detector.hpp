@@ -19,25 +19,25 @@
 namespace lodestar {
 
 struct BeaconDetectorParams {
-  std::vector<double> tone_table_hz;      ///< of the site
-  int window_frames = 30;                 ///< N
-  double false_alarms_per_hour = 1.0;     ///< over the whole image, on noise
+  std::vector<double> tone_table_hz;   ///< of the site
+  int window_frames = 30;              ///< N
+  double false_alarms_per_hour = 1.0;  ///< over the whole image, on noise
   ToneCodeParams code;
-  double min_explained = 0.6;             ///< share of a blob's varying light that its code must account for
-  std::optional<double> white_level;      ///< where pixels clip, grey levels; empty: the format's largest value
-  double min_spot_levels = 3.0;           ///< a spot to follow stands out of one frame by this many grey levels ...
-  double min_spot_sigmas = 6.0;           ///< ... and by this many sigmas of the noise
+  double min_explained = 0.6;         ///< share of a blob's varying light that its code must account for
+  std::optional<double> white_level;  ///< where pixels clip, grey levels; empty: the format's largest value
+  double min_spot_levels = 3.0;       ///< a spot to follow stands out of one frame by this many grey levels ...
+  double min_spot_sigmas = 6.0;       ///< ... and by this many sigmas of the noise
   int max_blobs = 128;
 };
 
 /// Why a frame led to no result.
 enum class FrameDrop {
-  kNoCamera,      ///< no calibration yet
-  kNoPixels,      ///< no data, or a size of zero
-  kFormat,        ///< neither 8 nor 16 bits, or a stride below the width
-  kSize,          ///< not the size of the calibration
-  kDuplicate,     ///< the stamp of the frame before
-  kBackwards,     ///< older than the frame before
+  kNoCamera,   ///< no calibration yet
+  kNoPixels,   ///< no data, or a size of zero
+  kFormat,     ///< neither 8 nor 16 bits, or a stride below the width
+  kSize,       ///< not the size of the calibration
+  kDuplicate,  ///< the stamp of the frame before
+  kBackwards,  ///< older than the frame before
   kCount
 };
 const char* name(FrameDrop reason);
@@ -46,8 +46,8 @@ const char* name(FrameDrop reason);
 ///
 /// Blobs of two kinds are demodulated: bright spots, followed from frame to frame along the image motion that gyro and
 /// odometry predict; and, where the image stands still, single pixels whose light varies more than noise does, however
-/// dim. Each pixel around a blob gets its own Goertzel bank over the window (ToneBank); its power is tested against its own
-/// noise at a false-alarm rate that is chosen for the image; the powers of the tones that are not sent are the
+/// dim. Each pixel around a blob gets its own Goertzel bank over the window (ToneBank); its power is tested against its
+/// own noise at a false-alarm rate that is chosen for the image; the powers of the tones that are not sent are the
 /// counter-proof; the tone amplitudes give the centre. See docs/math/detector.md.
 class BeaconDetector {
  public:

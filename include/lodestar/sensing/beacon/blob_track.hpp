@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <deque>
 #include <optional>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/common/stamp.hpp"
 #include "lodestar/base/geometry/camera_model.hpp"
@@ -16,17 +15,17 @@ namespace lodestar {
 
 /// Where a point of the ceiling was seen in each frame of the window, oldest first.
 struct BlobPath {
-  std::vector<Eigen::Vector2d> pixels;                              ///< the last one is the newest frame's
-  Eigen::Matrix2d newest_covariance = Eigen::Matrix2d::Zero();      ///< px^2, of the path's newest end as a whole
-  bool still = false;                                               ///< all pixels are the same
+  std::vector<Eigen::Vector2d> pixels;                          ///< the last one is the newest frame's
+  Eigen::Matrix2d newest_covariance = Eigen::Matrix2d::Zero();  ///< px^2, of the path's newest end as a whole
+  bool still = false;                                           ///< all pixels are the same
 };
 
 /// How the image of the ceiling moves within one window: the camera's motion, and a plane on which the beacons hang.
 struct WindowMotion {
   const CameraModel* camera = nullptr;
-  std::vector<Stamp> stamps;                     ///< of the window's frames, the last is `now`
-  std::vector<RigidTransform> T_then_now;        ///< camera to camera, one a frame
-  double plane_height_m = 6.0;                   ///< of the beacons above the camera
+  std::vector<Stamp> stamps;               ///< of the window's frames, the last is `now`
+  std::vector<RigidTransform> T_then_now;  ///< camera to camera, one a frame
+  double plane_height_m = 6.0;             ///< of the beacons above the camera
 
   /// Where what is at `pixel` now was in frame i. None where the lens model has no answer.
   std::optional<Eigen::Vector2d> pixel_then(const Eigen::Vector2d& pixel, std::size_t i) const;
@@ -59,10 +58,10 @@ class BlobTrack {
   std::size_t unseen_frames() const { return unseen_; }
 
  private:
-  Eigen::Vector2d pixel_;                                 ///< in the newest frame
+  Eigen::Vector2d pixel_;                                     ///< in the newest frame
   Eigen::Vector2d deviation_px_s_ = Eigen::Vector2d::Zero();  ///< rate of the deviation at the newest frame
-  double step_px_ = 0;                                    ///< length of the last predicted step
-  std::deque<std::optional<Eigen::Vector2d>> centres_;    ///< one a frame, newest last
+  double step_px_ = 0;                                        ///< length of the last predicted step
+  std::deque<std::optional<Eigen::Vector2d>> centres_;        ///< one a frame, newest last
   std::size_t unseen_ = 0;
 };
 

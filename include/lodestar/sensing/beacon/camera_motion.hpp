@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <deque>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/base/measurement/motion.hpp"

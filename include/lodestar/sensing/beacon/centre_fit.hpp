@@ -1,8 +1,7 @@
 #pragma once
 
-#include <optional>
-
 #include <Eigen/Core>
+#include <optional>
 
 #include "lodestar/sensing/beacon/demodulation.hpp"
 
@@ -10,9 +9,9 @@ namespace lodestar {
 
 /// Centre of a blob within its patch.
 struct CentreFit {
-  Eigen::Vector2d centre_px;      ///< relative to the patch's first pixel
-  Eigen::Matrix2d covariance;     ///< px^2, from the fit's own normal equations and residual
-  double sigma_px;                ///< width of the spot
+  Eigen::Vector2d centre_px;   ///< relative to the patch's first pixel
+  Eigen::Matrix2d covariance;  ///< px^2, from the fit's own normal equations and residual
+  double sigma_px;             ///< width of the spot
 };
 
 /// Least-squares fit of a pixel-integrated round Gaussian to the tone amplitude of each pixel, masked pixels left out

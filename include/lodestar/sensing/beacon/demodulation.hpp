@@ -1,8 +1,7 @@
 #pragma once
 
-#include <optional>
-
 #include <Eigen/Core>
+#include <optional>
 
 #include "lodestar/sensing/beacon/blob_track.hpp"
 #include "lodestar/sensing/beacon/frame_window.hpp"
@@ -20,9 +19,9 @@ struct Demodulation {
   Eigen::Vector2i origin = Eigen::Vector2i::Zero();  ///< image pixel of the patch's first pixel
   int frames = 0;
   Eigen::Matrix<float, Eigen::Dynamic, kPixels, Eigen::RowMajor> projections;  ///< 2 rows a tone, as in ToneBank
-  Eigen::Array<float, 1, kPixels> squares;       ///< sum of squared deviations from the mean
-  Eigen::Array<bool, 1, kPixels> valid;          ///< inside the image in each frame, and never clipped
-  bool saturated = false;                        ///< a pixel of the patch clipped
+  Eigen::Array<float, 1, kPixels> squares;  ///< sum of squared deviations from the mean
+  Eigen::Array<bool, 1, kPixels> valid;     ///< inside the image in each frame, and never clipped
+  bool saturated = false;                   ///< a pixel of the patch clipped
 
   Eigen::Array<float, 1, kPixels> power(int tone) const {
     return projections.row(2 * tone).array().square() + projections.row(2 * tone + 1).array().square();
@@ -30,8 +29,8 @@ struct Demodulation {
   static Eigen::Vector2i place(int index) { return {index % kSide, index / kSide}; }
 };
 
-/// Samples each frame at the path (exact pixels where it stands still, bilinear where it moves) and projects the signals
-/// onto the bank. None when the blob is too near to the image's edge for half of its patch to be seen.
+/// Samples each frame at the path (exact pixels where it stands still, bilinear where it moves) and projects the
+/// signals onto the bank. None when the blob is too near to the image's edge for half of its patch to be seen.
 /// @param white_level grey level at which a pixel clips
 std::optional<Demodulation> demodulate(const FrameWindow& window, const ToneBank& bank, const BlobPath& path,
                                        double white_level);

@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <deque>
 #include <variant>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "lodestar/base/measurement/image.hpp"
 

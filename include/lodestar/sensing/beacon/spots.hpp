@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 #include "lodestar/base/measurement/image.hpp"
 
@@ -19,7 +18,8 @@ class Background {
  public:
   static constexpr int kTilePx = 32;
 
-  /// Renews a part of the tiles (all of them with the first image or a new size), so that all are renewed every 16 frames.
+  /// Renews a part of the tiles (all of them with the first image or a new size), so that all are renewed every 16
+  /// frames.
   void update(const Image& image);
   double level(int u, int v) const { return levels_[static_cast<std::size_t>((v / kTilePx) * columns_ + u / kTilePx)]; }
   int columns() const { return columns_; }

@@ -14,8 +14,9 @@ struct ToneCodeParams {
 /// The code that a blob's powers spell, by margin: one to three tones of like power, all others well below. Empty where
 /// no code keeps both margins: a doubtful blob has none.
 ///
-/// An on-off beacon leaks its odd harmonics into other tones, at most -8.4 dB where five samples cover a period; a clipped
-/// two-tone beacon its intermodulation, about -9.5 dB: both stay out by margin_db, and neither reaches balance_db.
+/// An on-off beacon leaks its odd harmonics into other tones, at most -8.4 dB where five samples cover a period; a
+/// clipped two-tone beacon its intermodulation, about -9.5 dB: both stay out by margin_db, and neither reaches
+/// balance_db.
 /// @param power one a tone of the table, noise taken off (may be negative)
 ToneSet decide_code(const std::vector<double>& power, const ToneCodeParams& params);
 

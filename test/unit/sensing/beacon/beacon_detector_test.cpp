@@ -1,8 +1,8 @@
 #include "lodestar/sensing/beacon/beacon_detector.hpp"
 
-#include <random>
-
 #include <gtest/gtest.h>
+
+#include <random>
 
 #include "support/blob_scene.hpp"
 
@@ -37,8 +37,9 @@ BeaconDetector detector_for(const BlobScene& scene, std::vector<double> table = 
 }
 
 /// The result of the last of `frames` frames at `rate_hz`.
-Sightings run(BlobScene& scene, BeaconDetector& detector, int frames, double rate_hz,
-              const std::function<double(int)>& jitter_s = [](int) { return 0.0; }) {
+Sightings run(
+    BlobScene& scene, BeaconDetector& detector, int frames, double rate_hz,
+    const std::function<double(int)>& jitter_s = [](int) { return 0.0; }) {
   Sightings last;
   const CameraMotion standing;
   for (int i = 0; i < frames; ++i) {
@@ -125,10 +126,10 @@ TEST(BeaconDetector, AClippedTwoToneBeaconKeepsItsCodeAndCentre) {
 TEST(BeaconDetector, LampsAreNoBeacons) {
   const std::vector<std::function<double(double)>> lamps = {
       steady(400),
-      [](double t) { return 300 * (1 + 0.9 * std::cos(2 * kPi * 100 * t)); },                       // mains flicker
+      [](double t) { return 300 * (1 + 0.9 * std::cos(2 * kPi * 100 * t)); },  // mains flicker
       [](double t) { return 300 * (1 + 0.4 * std::cos(2 * kPi * 120.01 * t)); },
-      [](double t) { return 300 * std::pow(std::abs(std::sin(2 * kPi * 50 * t)), 3); },             // tube
-      [](double t) { return std::fmod(t * 2, 1.0) < 0.5 ? 400.0 : 0.0; },                           // warning lights
+      [](double t) { return 300 * std::pow(std::abs(std::sin(2 * kPi * 50 * t)), 3); },  // tube
+      [](double t) { return std::fmod(t * 2, 1.0) < 0.5 ? 400.0 : 0.0; },                // warning lights
       [](double t) { return std::fmod(t * 1.5, 1.0) < 0.1 ? 400.0 : 0.0; },
       [](double t) { return std::fmod(t * 3, 1.0) < 0.2 ? 400.0 : 0.0; }};
   for (std::size_t i = 0; i < lamps.size(); ++i) {
@@ -146,7 +147,8 @@ TEST(BeaconDetector, LampsAreNoBeacons) {
 TEST(BeaconDetector, AMovingSteadyLampIsNoBeacon) {
   for (double speed_px_s : {3.0, 20.0, 60.0, 200.0}) {
     BlobScene scene;
-    scene.lights = {{[=](double t) { return Eigen::Vector2d(10 + speed_px_s * t, 30 + 0.3 * speed_px_s * t); }, steady(400)}};
+    scene.lights = {
+        {[=](double t) { return Eigen::Vector2d(10 + speed_px_s * t, 30 + 0.3 * speed_px_s * t); }, steady(400)}};
     auto detector = detector_for(scene);
     const CameraMotion unknown;
     const int frames = static_cast<int>(std::min(120.0, 140.0 / speed_px_s * 60));

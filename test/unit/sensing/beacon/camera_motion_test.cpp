@@ -1,9 +1,9 @@
 #include "lodestar/sensing/beacon/camera_motion.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
-
-#include <gtest/gtest.h>
 
 namespace lodestar {
 namespace {

@@ -1,9 +1,9 @@
 #include "lodestar/sensing/beacon/centre_fit.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "lodestar/base/common/chi_square.hpp"
 
@@ -16,7 +16,8 @@ using Mask = Eigen::Array<bool, 1, Demodulation::kPixels>;
 Patch gaussian(const Eigen::Vector2d& centre, double sigma, double light) {
   Patch patch;
   const auto share = [&](int i, double middle) {
-    return 0.5 * (std::erf((i + 0.5 - middle) / sigma / std::sqrt(2.0)) - std::erf((i - 0.5 - middle) / sigma / std::sqrt(2.0)));
+    return 0.5 * (std::erf((i + 0.5 - middle) / sigma / std::sqrt(2.0)) -
+                  std::erf((i - 0.5 - middle) / sigma / std::sqrt(2.0)));
   };
   for (int i = 0; i < Demodulation::kPixels; ++i) {
     const auto place = Demodulation::place(i);

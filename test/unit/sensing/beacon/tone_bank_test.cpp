@@ -1,8 +1,8 @@
 #include "lodestar/sensing/beacon/tone_bank.hpp"
 
-#include <random>
-
 #include <gtest/gtest.h>
+
+#include <random>
 
 #include "lodestar/base/common/angle.hpp"
 

@@ -11,9 +11,7 @@ TEST(DecideCode, ReadsOneTwoAndThreeTones) {
   EXPECT_EQ(decide_code({100, 80, 70, 3}, {}), (ToneSet{0, 1, 2}));
 }
 
-TEST(DecideCode, AnOnOffBeaconsHarmonicStaysOut) {
-  EXPECT_EQ(decide_code({100, 14.6}, {}), (ToneSet{0}));
-}
+TEST(DecideCode, AnOnOffBeaconsHarmonicStaysOut) { EXPECT_EQ(decide_code({100, 14.6}, {}), (ToneSet{0})); }
 
 TEST(DecideCode, AClippedBeaconsIntermodulationStaysOut) {
   EXPECT_EQ(decide_code({100, 98, 11, 12, 9}, {}), (ToneSet{0, 1}));
