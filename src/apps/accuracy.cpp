@@ -25,11 +25,11 @@ constexpr char kUsage[] =
     "  accuracy --scenario config/scenarios/drive.yaml --seeds 10\n"
     "  accuracy --scenario config/scenarios/static.yaml --seeds 20 --duration 4\n"
     "\n"
-    "Each seed draws its own noise, floor, survey and calibration errors. `bound` is the Cramer-Rao bound of one fix, "
-    "the root\n"
-    "mean square of the horizontal error that no unbiased solver stays below, for the noise that the line is told of: "
-    "pixel, lens,\n"
-    "survey, mount and gravity. The filter may be below it, for it uses more than one instant.\n";
+    "Each seed draws its own noise, floor, survey and calibration errors. `bound` is the Cramer-Rao bound of one fix "
+    "for the\n"
+    "noise that the line is told of (pixel, lens, survey, mount, gravity: the vehicle file's defaults); a scenario "
+    "with smaller\n"
+    "errors than that lies below it. The filter may lie below it too, for it uses more than one instant.\n";
 
 /// Sums over one seed, or over all.
 struct Errors {
@@ -92,28 +92,31 @@ Run run(const sim::Scenario& scenario, ProgressBar& bar, double done, double sha
   return result;
 }
 
+/// "-" where there was nothing to measure.
+std::string figure(double value, int decimals) {
+  char text[32] = "-";
+  if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
 void print(const std::string& label, const Run& run) {
-  const auto& all = run.fix;
-  const auto mean_mm = [](const Errors& errors) {
-    char text[16] = "-";
-    if (errors.count > 0) std::snprintf(text, sizeof text, "%.1f", 1e3 * errors.mean(errors.sum_m));
-    return std::string(text);
-  };
-  std::printf(
-      "%-6s %9s %9s %9.3f %7.2f %9.1f %9.1f %11.2f\n", label.c_str(), mean_mm(run.standing).c_str(),
-      mean_mm(run.moving).c_str(),
-      degrees((run.standing.yaw_rad + run.moving.yaw_rad) / static_cast<double>(run.standing.count + run.moving.count)),
-      (run.standing.nees + run.moving.nees) / static_cast<double>(run.standing.count + run.moving.count),
-      1e3 * std::sqrt(all.mean(all.square_m2)), 1e3 * std::sqrt(all.mean(run.bound_m2)),
-      100.0 * static_cast<double>(run.estimates) / static_cast<double>(run.frames));
+  Errors filter = run.standing;
+  filter.add(run.moving);
+  const std::string cells[] = {figure(1e3 * run.standing.mean(run.standing.sum_m), 1),
+                               figure(1e3 * run.moving.mean(run.moving.sum_m), 1),
+                               figure(degrees(filter.mean(filter.yaw_rad)), 3),
+                               figure(filter.mean(filter.nees), 2),
+                               figure(1e3 * std::sqrt(run.fix.mean(run.fix.square_m2)), 1),
+                               figure(1e3 * std::sqrt(run.fix.mean(run.bound_m2)), 1),
+                               figure(100.0 * static_cast<double>(run.estimates) / static_cast<double>(run.frames), 2)};
+  std::printf("%-6s %9s %9s %9s %7s %9s %9s %11s\n", label.c_str(), cells[0].c_str(), cells[1].c_str(),
+              cells[2].c_str(), cells[3].c_str(), cells[4].c_str(), cells[5].c_str(), cells[6].c_str());
 }
 
 int accuracy(const po::variables_map& options) {
   const auto path = options["scenario"].as<std::string>();
-  auto loaded = sim::load_scenario(path);
-  if (!loaded) throw UserError(describe(loaded.error()) + "Mend the file, then start again.");
-  sim::Scenario scenario = std::move(loaded).value();
-  if (options.count("duration")) scenario.duration_s = options["duration"].as<double>();
+  sim::Scenario scenario = value_or_throw(sim::load_scenario(path));
+  if (options.count("duration")) scenario.duration_s = duration_s(options);
   if (!scenario.duration_s) throw UserError(path + ": has no end; give --duration in seconds.");
   const int seeds = options["seeds"].as<int>();
   if (seeds < 1) throw UserError("--seeds is " + std::to_string(seeds) + ", it has to be 1 or more.");

@@ -33,12 +33,6 @@ constexpr char kUsage[] =
     "\n"
     "The truth is /ground_truth/pose; EST.csv is what replay writes. docs/nodes/evaluate.md defines every number.\n";
 
-template <class T>
-T value_or_throw(Result<T, Faults> result) {
-  if (!result) throw UserError(describe(result.error()) + "Mend the file, then start again.");
-  return std::move(result).value();
-}
-
 TruthTrack read_truth(const std::string& path) {
   RecordingReaderParams params;
   params.truth_only = true;

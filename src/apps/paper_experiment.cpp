@@ -113,9 +113,7 @@ double pitch_m(const std::vector<MapError>& errors) {
 
 int experiment(const po::variables_map& options) {
   const auto path = options["scenario"].as<std::string>();
-  auto loaded = sim::load_scenario(path);
-  if (!loaded) throw UserError(describe(loaded.error()) + "Mend the file, then start again.");
-  sim::Scenario scenario = std::move(loaded).value();
+  sim::Scenario scenario = value_or_throw(sim::load_scenario(path));
   if (scenario.route.poses.size() < 2)
     throw UserError(path + ": its route is no list of poses; give a scenario as config/scenarios/paper.yaml.");
   if (options.count("seed")) scenario.seed = options["seed"].as<std::uint64_t>();

@@ -19,6 +19,7 @@
 #include "cli/progress_bar.hpp"
 #include "lodestar/line/frame_rate.hpp"
 #include "lodestar/line/localization_line.hpp"
+#include "lodestar/line/time_jump.hpp"
 #include "lodestar/ros/bag/recording.hpp"
 
 namespace lodestar {
@@ -37,12 +38,6 @@ constexpr char kUsage[] =
     "  evaluate --truth drive.bag --estimate drive.csv --plot drive.png\n"
     "\n"
     "EST.csv gets one row for each camera frame after start-up, from data received by then alone.\n";
-
-template <class T>
-T value_or_throw(Result<T, Faults> result) {
-  if (!result) throw UserError(describe(result.error()) + "Mend the file, then start again.");
-  return std::move(result).value();
-}
 
 /// The camera's rate from the stamps of its first frames; the records that were read for it are kept.
 struct Opening {
@@ -87,23 +82,39 @@ class EstimateCsv {
 
 /// What went through, for the summary at the end.
 struct Tally {
-  std::size_t frames = 0, sightings = 0, named = 0, fixes = 0, rows = 0;
+  std::size_t frames = 0, sightings = 0, named = 0, fixes = 0, rows = 0, resets = 0, time_steps = 0;
 };
 
 /// Feeds the line with records and writes down what it says.
 class Replay {
  public:
-  Replay(LocalizationLine& line, const CameraMount& mount, EstimateCsv& csv, RecordingWriter* out_bag)
-      : line_(line), mount_(mount), csv_(csv), out_bag_(out_bag) {}
+  Replay(LocalizationLine& line, const CameraMount& mount, const std::string& map_frame, EstimateCsv& csv,
+         RecordingWriter* out_bag)
+      : line_(line), mount_(mount), map_frame_(map_frame), csv_(csv), out_bag_(out_bag) {}
 
   void feed(const Record& record) {
     received_ = record.received;
-    std::visit([this](const auto& content) { take(content); }, record.content);
+    std::visit(
+        [this](const auto& content) {
+          if (admit(content)) take(content);
+        },
+        record.content);
   }
 
   const Tally& tally() const { return tally_; }
 
  private:
+  /// The same rule on time as the nodelets': one bad stamp is dropped, time that goes back starts the line anew.
+  template <class Content>
+  bool admit(const Content& content) {
+    const TimeVerdict verdict = jump_.check(content.stamp, received_);
+    if (verdict == TimeVerdict::kReset) line_.reset();
+    tally_.resets += verdict == TimeVerdict::kReset;
+    tally_.time_steps += verdict == TimeVerdict::kDrop;
+    return verdict != TimeVerdict::kDrop;
+  }
+  bool admit(const CameraIntrinsics&) { return true; }
+
   void take(const CameraIntrinsics& intrinsics) {
     auto model = CameraModel::create(intrinsics);
     if (!model) throw UserError("camera_info: " + model.error());
@@ -147,12 +158,14 @@ class Replay {
     T_odom_base.linear() = rotation({0, 0, odometry_->yaw_odom_rad});
     T_odom_base.translation() = odometry_->position_odom_m;
     if (const auto then = line_.fusion().filter().estimate_at(odometry_->stamp)) {
-      out_bag_->write(received_, "map", "odom", odometry_->stamp, then->T_map_base * T_odom_base.inverse());
+      out_bag_->write(received_, map_frame_, "odom", odometry_->stamp, then->T_map_base * T_odom_base.inverse());
     }
   }
 
   LocalizationLine& line_;
   CameraMount mount_;
+  std::string map_frame_;
+  TimeJump jump_;
   EstimateCsv& csv_;
   RecordingWriter* out_bag_;
   std::optional<OdometrySample> odometry_;
@@ -175,6 +188,9 @@ void print_summary(const Tally& tally, const LocalizationLine& line, const Recor
   std::cerr << std::fixed << std::setprecision(1) << tally.frames << " frames, " << tally.sightings << " sightings, "
             << tally.named << " named, " << tally.fixes << " fixes, " << tally.rows << " rows; " << recorded_s
             << " s recorded, " << wall_s << " s to replay (" << recorded_s / wall_s << " x real time)\n";
+  if (tally.resets + tally.time_steps > 0) {
+    std::cerr << "time went back " << tally.resets << " times, " << tally.time_steps << " bad stamps dropped\n";
+  }
   print_drops("frames dropped", line.detection().drops());
   print_drops("IR frames dropped", line.beacon_table().drops());
   print_drops("no fix", line.pose().refusals());
@@ -219,6 +235,7 @@ int replay(const po::variables_map& options) {
   std::unique_ptr<RecordingWriter> out_bag;
   if (options.count("out-bag")) {
     RecordingWriterParams writing;
+    writing.frames.map = site.frame_id;
     writing.tone_table_hz = site.tone_table_hz;
     out_bag = std::make_unique<RecordingWriter>(options["out-bag"].as<std::string>(), writing);
   }
@@ -227,7 +244,7 @@ int replay(const po::variables_map& options) {
   if (const auto T_base_imu = vehicle.T_base_imu ? vehicle.T_base_imu : reader.mount("imu_link")) {
     line.set_imu(T_base_imu->translation());
   }
-  Replay replay(line, mount, csv, out_bag.get());
+  Replay replay(line, mount, site.frame_id, csv, out_bag.get());
   {
     ProgressBar bar("replay");
     // The calibration is received behind the image that it came with.
@@ -244,6 +261,9 @@ int replay(const po::variables_map& options) {
   }
   print_summary(replay.tally(), line, reader,
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
+  if (replay.tally().frames == 0 && line.detection().drops()[FrameDrop::kNoCamera] > 0) {
+    throw UserError(bag_path + ": no good /camera/camera_info came with the images, so nothing could be localized.");
+  }
   return 0;
 }
 

@@ -29,15 +29,9 @@ constexpr char kUsage[] =
     "The same scenario and seed give the same samples. docs/nodes/simulator.md explains every key of a scenario.\n";
 
 sim::Scenario load(const po::variables_map& options) {
-  auto loaded = sim::load_scenario(options["scenario"].as<std::string>());
-  if (!loaded) throw UserError(describe(loaded.error()) + "Mend the file, then start again.");
-  sim::Scenario scenario = std::move(loaded).value();
+  sim::Scenario scenario = value_or_throw(sim::load_scenario(options["scenario"].as<std::string>()));
   if (options.count("seed")) scenario.seed = options["seed"].as<std::uint64_t>();
-  if (options.count("duration")) {
-    const double duration_s = options["duration"].as<double>();
-    if (!(duration_s > 0 && duration_s <= 1e7)) throw UserError("--duration must be above 0 s and at most 1e7 s.");
-    scenario.duration_s = duration_s;
-  }
+  if (options.count("duration")) scenario.duration_s = duration_s(options);
   if (!scenario.duration_s) throw UserError("this scenario never ends: say how much of it with --duration.");
   return scenario;
 }

@@ -6,6 +6,14 @@ namespace lodestar {
 
 namespace po = boost::program_options;
 
+double duration_s(const po::variables_map& options) {
+  const double value_s = options["duration"].as<double>();
+  if (!(value_s > 0 && value_s <= 1e7)) {
+    throw UserError("--duration is " + std::to_string(value_s) + " s, it must be above 0 s and at most 1e7 s.");
+  }
+  return value_s;
+}
+
 int run_tool(int argc, char** argv, const std::string& usage, po::options_description options,
              const std::function<int(const po::variables_map&)>& job) {
   options.add_options()("help,h", "show this and stop");

@@ -82,12 +82,20 @@ void BeaconDetectionNodelet::take_image(const sensor_msgs::ImageConstPtr& messag
   if (!image) return edge_->health().drop(image.error());
   if (!edge_->admit(message->header.stamp)) return;
   if (stage_) return process(*image);
+  if (!tone_faults_.empty()) return edge_->health().drop(EdgeDrop::kTones);
 
   early_images_.push_back(*image);
   if (early_images_.size() > FrameRateEstimate::kFrames) early_images_.pop_front();
   frame_rate_hz_ = rate_.add(image->stamp);
   if (!frame_rate_hz_) return;
   NODELET_INFO("the camera sends %.2f frames a second", *frame_rate_hz_);
+  const Vehicle& vehicle = edge_->vehicle();
+  tone_faults_ =
+      check_tones(edge_->site(), {*frame_rate_hz_, vehicle.mains_hz, vehicle.window_frames}, edge_->site_path());
+  if (!tone_faults_.empty()) {
+    NODELET_ERROR_STREAM("no beacon is looked for:\n" << describe(tone_faults_));
+    return;
+  }
   make_stage();
   for (const Motion& early : early_motion_) add_motion(early);
   for (const Image& early : early_images_) process(early);
@@ -116,6 +124,7 @@ void BeaconDetectionNodelet::report(Health::Status& status) {
   status.addf("frame_rate_hz", "%.2f", frame_rate_hz_.value_or(0));
   status.add("sightings in the last window", last_sightings_);
   status.add("named in the last window", last_named_);
+  if (!tone_faults_.empty()) status.mergeSummary(Health::Status::ERROR, describe(tone_faults_));
   if (!stage_) return;
   report_drops(stage_->drops(), status);
 }

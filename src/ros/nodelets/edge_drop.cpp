@@ -10,6 +10,8 @@ const char* name(EdgeDrop reason) {
       return "bad camera_info";
     case EdgeDrop::kNoCameraInfo:
       return "no camera_info";
+    case EdgeDrop::kTones:
+      return "rate does not suit the tones";
     case EdgeDrop::kNoMount:
       return "no mount";
     case EdgeDrop::kCount:

@@ -39,7 +39,7 @@ void IrDecodingNodelet::onInit() {
 // Only the clock may reset the superframe count, never the stamps of frames: else a replayed recording would.
 void IrDecodingNodelet::take_frame(const IrFrameConstPtr& message) {
   frames_watch_->tick();
-  if (jump_.clock_went_back()) {
+  if (jump_.clock_went_back(stamp_from(ros::Time::now()))) {
     health_->count_reset();
     table_->reset_time();
   }

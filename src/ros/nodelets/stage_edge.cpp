@@ -1,5 +1,7 @@
 #include "lodestar/ros/nodelets/stage_edge.hpp"
 
+#include "lodestar/ros/convert/stamp.hpp"
+
 namespace lodestar {
 
 LineSetup StageEdge::read_or_refuse(ParamReader& params) {
@@ -18,7 +20,7 @@ StageEdge::StageEdge(const ros::NodeHandle& nh, const ros::NodeHandle& private_n
       on_reset_(std::move(on_reset)) {}
 
 bool StageEdge::admit(const ros::Time& stamp) {
-  const TimeVerdict verdict = jump_.check(stamp);
+  const TimeVerdict verdict = jump_.check(stamp_from(stamp), stamp_from(ros::Time::now()));
   if (verdict == TimeVerdict::kDrop) health_.drop(EdgeDrop::kTimeStep);
   if (verdict == TimeVerdict::kReset) {
     health_.count_reset();

@@ -14,6 +14,7 @@ Site read_site(ParamReader& params) {
 LineSetup read_line_setup(ParamReader& params) {
   LineSetup setup;
   setup.site = read_site(params);
+  setup.site_path = params.text("site", "");
   const std::string path = params.text("vehicle", "");
   if (!path.empty()) {
     auto vehicle = load_vehicle(path);
@@ -26,7 +27,7 @@ LineSetup read_line_setup(ParamReader& params) {
   if (setup.vehicle.camera_rate_hz && !setup.site.tone_table_hz.empty()) {
     params.add(check_tones(setup.site,
                            {*setup.vehicle.camera_rate_hz, setup.vehicle.mains_hz, setup.vehicle.window_frames},
-                           params.text("site", "")));
+                           setup.site_path));
   }
   return setup;
 }

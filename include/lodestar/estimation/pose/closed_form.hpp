@@ -33,7 +33,7 @@ enum class TwoBeaconFault {
 };
 
 /// Position and yaw of a levelled camera that sees two known beacons: both roots (docs/math/closed_form.md, equations
-/// 1 to 9), after Heissmeyer, Overmeyer, Mueller 2013. It solves for the angle itself, hence has no blind quadrant and
+/// 1 to 9), after Heissmeyer, Overmeyer, Müller 2013. It solves for the angle itself, hence has no blind quadrant and
 /// loses no digits near 90 deg.
 /// @param slack how far |c| / h may exceed 1 through noise (equation 5); within it the double root is returned twice
 Result<std::array<TwoBeaconRoot, 2>, TwoBeaconFault> two_beacon_roots(const LevelledBearing& first,

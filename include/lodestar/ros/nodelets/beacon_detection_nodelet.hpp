@@ -48,6 +48,7 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   StreamWatch* sightings_watch_ = nullptr;
   int camera_revision_ = 0;
   FrameRateEstimate rate_;
+  Faults tone_faults_;  ///< of the measured rate: then there is no stage
   std::optional<double> frame_rate_hz_;
   std::deque<Image> early_images_;   ///< wait for the frame rate
   std::deque<Motion> early_motion_;  ///< likewise

@@ -7,6 +7,7 @@ enum class EdgeDrop {
   kTimeStep,      ///< its stamp is more than two seconds from the stamps around it
   kCameraInfo,    ///< camera_info that is no lens
   kNoCameraInfo,  ///< image or sightings before the first good camera_info
+  kTones,         ///< image of a camera whose rate does not suit the site's tones
   kNoMount,       ///< no transform from the sensor's frame to the base yet
   kCount
 };

@@ -7,7 +7,7 @@
 #include "lodestar/GetBeacons.h"
 #include "lodestar/IrFrame.h"
 #include "lodestar/ros/nodelets/health.hpp"
-#include "lodestar/ros/nodelets/time_jump.hpp"
+#include "lodestar/line/time_jump.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 

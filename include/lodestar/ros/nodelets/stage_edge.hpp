@@ -7,7 +7,7 @@
 
 #include "lodestar/ros/nodelets/health.hpp"
 #include "lodestar/ros/nodelets/mount_lookup.hpp"
-#include "lodestar/ros/nodelets/time_jump.hpp"
+#include "lodestar/line/time_jump.hpp"
 #include "lodestar/ros/params/line_setup.hpp"
 
 namespace lodestar {
@@ -25,6 +25,7 @@ class StageEdge {
   bool admit(const ros::Time& stamp);
 
   const Site& site() const { return setup_.site; }
+  const std::string& site_path() const { return setup_.site_path; }
   const Vehicle& vehicle() const { return setup_.vehicle; }
   const std::string& map_frame() const { return setup_.site.frame_id; }
   const std::string& base_frame() const { return mounts_.base_frame(); }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/base/site/vehicle.hpp"
 #include "lodestar/ros/params/param_reader.hpp"
@@ -9,6 +11,7 @@ namespace lodestar {
 /// The two files that every stage of the line is set up from.
 struct LineSetup {
   Site site;
+  std::string site_path;
   Vehicle vehicle;
 };
 

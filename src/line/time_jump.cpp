@@ -1,4 +1,4 @@
-#include "lodestar/ros/nodelets/time_jump.hpp"
+#include "lodestar/line/time_jump.hpp"
 
 #include <cmath>
 
@@ -8,22 +8,22 @@ namespace {
 constexpr double kClockStep_s = 0.1;  // below it a clock is being trimmed, not started over
 }
 
-bool TimeJump::clock_went_back(const ros::Time& now) {
-  const bool back = !last_now_.isZero() && (last_now_ - now).toSec() > kClockStep_s;
+bool TimeJump::clock_went_back(Stamp now) {
+  const bool back = last_now_ && seconds(*last_now_ - now) > kClockStep_s;
   last_now_ = now;
   return back;
 }
 
-TimeVerdict TimeJump::check(const ros::Time& stamp, const ros::Time& now) {
+TimeVerdict TimeJump::check(Stamp stamp, Stamp now) {
   if (clock_went_back(now)) {
     newest_ = stamp;
     outliers_ = 0;
     return TimeVerdict::kReset;
   }
-  if (stamp.isZero()) return TimeVerdict::kDrop;
-  const double ahead_s = newest_.isZero() ? 0.0 : (stamp - newest_).toSec();
+  if (stamp == Stamp{}) return TimeVerdict::kDrop;
+  const double ahead_s = newest_ ? seconds(stamp - *newest_) : 0.0;
   if (std::abs(ahead_s) <= kStep_s) {
-    if (newest_.isZero() || ahead_s > 0) newest_ = stamp;
+    if (!newest_ || ahead_s > 0) newest_ = stamp;
     outliers_ = 0;
     return TimeVerdict::kUse;
   }
