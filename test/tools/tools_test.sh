@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# simulate, replay and evaluate one after the other, as a user would, and what they say to wrong input.
+# Usage: tools_test.sh <folder of the programs> <source folder>
+set -euo pipefail
+bin=$1 source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+# refused <exit code> <text that the error must hold> <command...>
+refused() {
+  local code=$1 text=$2 got=0
+  shift 2
+  "$@" >out.txt 2>&1 || got=$?
+  [ "$got" -eq "$code" ] || { cat out.txt >&2; fail "exit code $got, not $code: $*"; }
+  grep -q -- "$text" out.txt || { cat out.txt >&2; fail "'$text' is missing from the error of: $*"; }
+}
+
+"$bin/simulate" --scenario "$source/test/ros/scenario.yaml" --out drive.bag --duration 4
+"$bin/replay" --site "$source/test/ros/site.yaml" --bag drive.bag --out drive.csv --out-bag result.bag
+"$bin/evaluate" --truth drive.bag --estimate drive.csv --json drive.json --plot drive.png --site "$source/test/ros/site.yaml"
+[ -s result.bag ] || fail "no --out-bag"
+[ -s drive.png ] || fail "no plot"
+header=stamp_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,sigma_x_m,sigma_y_m,sigma_yaw_rad,beacons_used,mode
+[ "$(head -n 1 drive.csv)" = "$header" ] || fail "the CSV's columns are not those of the interfaces page"
+/usr/bin/python3 - <<'PYTHON'
+import json
+result = json.load(open("drive.json"))
+parts = {"mean_m", "rmse_m", "median_m", "p95_m", "max_m"}
+for key in ("all", "standing", "moving"):
+    assert parts <= set(result[key]["position"]), result[key]
+    assert {part.replace("_m", "_rad") if part != "mean_m" else "mean_rad" for part in parts} <= set(result[key]["yaw"])
+    assert {"samples", "nees_mean", "z"} <= set(result[key])
+assert result["all"]["samples"] > 80, result
+assert result["all"]["position"]["mean_m"] < 0.08, result
+assert result["availability"] >= 0.99, result
+assert result["time_to_first_fix_s"] < 1.5, result
+PYTHON
+
+# Nothing found is an answer, not an error.
+head -n 1 drive.csv >empty.csv
+"$bin/evaluate" --truth drive.bag --estimate empty.csv --json empty.json
+/usr/bin/python3 -c 'import json; r = json.load(open("empty.json")); assert r["all"]["samples"] == 0 and r["time_to_first_fix_s"] is None, r'
+
+head -c 20000 drive.bag >torn.bag
+refused 1 torn.bag "$bin/replay" --site "$source/test/ros/site.yaml" --bag torn.bag --out e.csv
+refused 1 nothere.bag "$bin/replay" --site "$source/test/ros/site.yaml" --bag nothere.bag --out e.csv
+refused 1 "site_alias.yaml:3" "$bin/replay" --site "$source/test/ros/site_alias.yaml" --bag drive.bag --out e.csv
+refused 2 "--help" "$bin/replay" --sight x
+refused 2 "site" "$bin/replay" --bag drive.bag --out e.csv
+sed 's/^\([0-9.]*\),[^,]*/\1,nan/' drive.csv >nan.csv
+refused 1 "nan.csv:2" "$bin/evaluate" --truth drive.bag --estimate nan.csv
+refused 1 "duration" "$bin/accuracy" --scenario "$source/test/ros/scenario.yaml" --duration nan
+for tool in simulate replay evaluate paper_experiment accuracy; do
+  "$bin/$tool" --help | grep -q "Examples:" || fail "$tool --help has no examples"
+done
+echo "all tools do as they say"
