@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/duration.h>
 #include <ros/time.h>
 
 #include "lodestar/base/common/stamp.hpp"
@@ -13,9 +12,5 @@ inline Stamp stamp_from(const ros::Time& time) {
 
 /// Exact. ros::Time holds 1970 to 2106; a stamp outside becomes time zero, which means "none" in ROS.
 ros::Time ros_time(Stamp stamp);
-
-inline Duration duration_from(const ros::Duration& duration) {
-  return std::chrono::seconds(duration.sec) + std::chrono::nanoseconds(duration.nsec);
-}
 
 }  // namespace lodestar
