@@ -133,7 +133,8 @@ double BeaconDetector::power_threshold(const Image& image) const {
   return 2.0 * std::log(trials_per_hour / params_.false_alarms_per_hour);
 }
 
-std::vector<BlobPath> BeaconDetector::candidate_paths(const WindowMotion& motion, double power_threshold) {
+std::vector<BlobPath> BeaconDetector::candidate_paths(const WindowMotion& motion, const ToneBank& bank,
+                                                      double power_threshold) {
   std::vector<BlobPath> paths;
   const auto full_age = static_cast<std::size_t>(window_.capacity());
   for (BlobTrack& track : tracks_) {
@@ -155,7 +156,8 @@ std::vector<BlobPath> BeaconDetector::candidate_paths(const WindowMotion& motion
     const bool known = std::any_of(paths.begin(), paths.end(), [&](const BlobPath& path) {
       return (path.pixels.back() - place).norm() < kMergePx;
     });
-    if (known) continue;
+    // What its strongest tone cannot pass alone, no neighbour will make pass: noise is at least the dark noise.
+    if (known || strongest_power(window_, bank, pixel) < power_threshold * noise_variance_) continue;
     BlobPath path;
     path.pixels.assign(motion.stamps.size(), place);
     path.still = true;
@@ -229,7 +231,7 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
 
   const ToneBank bank(motion.stamps, params_.tone_table_hz);
   const double limit = power_threshold(image);
-  for (const BlobPath& path : candidate_paths(motion, limit)) {
+  for (const BlobPath& path : candidate_paths(motion, bank, limit)) {
     const auto sighting = examine(path, bank, white_level(image), limit);
     if (!sighting || !camera_->contains(sighting->pixel)) continue;
     const auto twin = std::find_if(result.sightings.begin(), result.sightings.end(), [&](const Sighting& other) {

@@ -49,6 +49,23 @@ struct PatchSampler {
 
 }  // namespace
 
+float strongest_power(const FrameWindow& window, const ToneBank& bank, const Eigen::Vector2i& pixel) {
+  const auto& frames = window.frames();
+  Eigen::VectorXf signal(static_cast<Eigen::Index>(frames.size()));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    signal[static_cast<Eigen::Index>(i)] = frames[i].bits == 8
+                                               ? static_cast<float>(frames[i].row<std::uint8_t>(pixel.y())[pixel.x()])
+                                               : static_cast<float>(frames[i].row<std::uint16_t>(pixel.y())[pixel.x()]);
+  }
+  signal.array() -= signal.mean();
+  const Eigen::VectorXf projections = bank.basis() * signal;
+  float strongest = 0;
+  for (int tone = 0; tone < bank.tones(); ++tone) {
+    strongest = std::max(strongest, projections.segment<2>(2 * tone).squaredNorm());
+  }
+  return strongest;
+}
+
 std::optional<Demodulation> demodulate(const FrameWindow& window, const ToneBank& bank, const BlobPath& path,
                                        double white_level) {
   Demodulation out;

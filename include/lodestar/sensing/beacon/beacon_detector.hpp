@@ -74,7 +74,7 @@ class BeaconDetector {
   bool breaks_window(const Image& image) const;
   double white_level(const Image& image) const;
   double power_threshold(const Image& image) const;
-  std::vector<BlobPath> candidate_paths(const WindowMotion& motion, double power_threshold);
+  std::vector<BlobPath> candidate_paths(const WindowMotion& motion, const ToneBank& bank, double power_threshold);
   std::optional<Sighting> examine(const BlobPath& path, const ToneBank& bank, double white_level,
                                   double power_threshold) const;
 

@@ -29,6 +29,9 @@ struct Demodulation {
   static Eigen::Vector2i place(int index) { return {index % kSide, index / kSide}; }
 };
 
+/// Power of the strongest tone in one pixel that stands still.
+float strongest_power(const FrameWindow& window, const ToneBank& bank, const Eigen::Vector2i& pixel);
+
 /// Samples each frame at the path (exact pixels where it stands still, bilinear where it moves) and projects the
 /// signals onto the bank. None when the blob is too near to the image's edge for half of its patch to be seen.
 /// @param white_level grey level at which a pixel clips
