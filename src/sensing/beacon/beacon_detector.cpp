@@ -190,8 +190,7 @@ std::optional<Sighting> BeaconDetector::examine(const BlobPath& path, const Tone
     weakest = weakest.min(patch->power(tone));
     sent += power[static_cast<std::size_t>(tone)];
   }
-  int peak = 0;
-  const float best = patch->valid.select(weakest / noise, 0.0f).maxCoeff(&peak);
+  const float best = patch->valid.select(weakest / noise, 0.0f).maxCoeff();
   if (best < power_threshold) return std::nullopt;
 
   const double varying = lit.select(patch->squares - static_cast<float>(quiet), 0.0f).sum();
