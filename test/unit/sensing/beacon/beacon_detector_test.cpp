@@ -84,7 +84,11 @@ TEST(BeaconDetector, FindsABeaconThatNoSingleFrameShows) {
   BlobScene scene;
   scene.noise = 1.5;
   scene.lights = {{at(64.0, 40.0), tones(22, {8})}};  // peak pixel: 4 grey levels at most, noise 1.5
-  auto detector = detector_for(scene);
+  BeaconDetectorParams params;
+  params.tone_table_hz = kTable;
+  params.min_spot_sigmas = 100;  // no spot: only its pixel's own variation can betray it
+  BeaconDetector detector(params);
+  detector.set_camera(camera_for(scene));
   const auto result = run(scene, detector, 35, 60);
   ASSERT_EQ(result.sightings.size(), 1u);
   EXPECT_EQ(result.sightings[0].tones, ToneSet{1});
