@@ -6,12 +6,14 @@
 #include <sstream>
 #include <utility>
 
+#include "lodestar/planning/lattice.hpp"
+
 namespace lodestar {
 
 namespace {
 
 constexpr int kMostSlots = 256;
-constexpr int kPasses = 100, kStretchPasses = 10;  // of the colouring
+constexpr int kMoves = 20000, kStretchMoves = 2000;  // of the search for a colouring
 constexpr double kMostStretch = 4, kStretchStep = 0.02;
 
 /// The beacons with what a camera sees of them, or why a beacon cannot be seen.
@@ -31,6 +33,16 @@ Result<std::vector<Lit>, std::string> light_up(const std::vector<Beacon>& beacon
   return lit;
 }
 
+/// The better of a lattice and a search; `enough` colours end it.
+Colouring few_colours(const std::vector<Lit>& lit, double stretch, int enough, int moves) {
+  const ConflictGraph graph = conflicts(lit, stretch);
+  const auto lattice = lattice_colouring(lit, graph, enough);
+  if (lattice) return *lattice;
+  Colouring searched = colour(graph, enough, moves);
+  const auto smaller = lattice_colouring(lit, graph, searched.count - 1);
+  return smaller ? *smaller : searched;
+}
+
 /// Labels that return as far away as a search finds, at most `labels` of them.
 /// @param least a colouring with at most that many
 Colouring spread(const std::vector<Lit>& lit, int labels, Colouring least) {
@@ -42,7 +54,7 @@ Colouring spread(const std::vector<Lit>& lit, int labels, Colouring least) {
   double works = 1, fails = kMostStretch;
   while (fails - works > kStretchStep) {
     const double stretch = 0.5 * (works + fails);
-    Colouring wider = colour(conflicts(lit, stretch), labels, kStretchPasses);
+    Colouring wider = few_colours(lit, stretch, labels, kStretchMoves);
     if (wider.count <= labels) {
       works = stretch;
       least = std::move(wider);
@@ -127,7 +139,7 @@ Result<CodePlan, std::string> plan_codes(const Site& survey, const CodePlanParam
 
   CodePlan plan;
   plan.crowd = most_in_view(*lit);
-  const Colouring least = colour(conflicts(*lit, 1), plan.crowd.beacons, kPasses);
+  const Colouring least = few_colours(*lit, 1, plan.crowd.beacons, kMoves);
   plan.book = make_code_book(params.book, least.count);
   const int code_count = static_cast<int>(plan.book.codes.size());
   if (code_count < least.count) return too_few_codes(params, plan.book, least, plan.crowd);

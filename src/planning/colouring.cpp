@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
+#include <limits>
 #include <queue>
 #include <random>
+#include <set>
 #include <tuple>
 
 namespace lodestar {
@@ -55,39 +56,91 @@ Colouring dsatur(const ConflictGraph& graph) {
   return out;
 }
 
-/// First fit, one colour's nodes after the other's, the colours in a new order.
-Colouring refit(const ConflictGraph& graph, const Colouring& before, const std::vector<int>& rank) {
-  std::vector<int> order(graph.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto rank_of = [&](int node) {
-    return rank[static_cast<std::size_t>(before.colours[static_cast<std::size_t>(node)])];
-  };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank_of(a) < rank_of(b); });
-
-  Colouring out{std::vector<int>(graph.size(), -1), 0};
-  std::vector<int> taken_by(graph.size(), -1);
-  for (const int node : order) {
-    const int colour = first_free(graph, node, out.colours, taken_by);
-    out.colours[static_cast<std::size_t>(node)] = colour;
-    out.count = std::max(out.count, colour + 1);
+/// A search for a colouring with one colour less, over colourings that still have conflicts: in each move a node in
+/// conflict takes the colour that its neighbours have least, and may not turn back for a while.
+class Tabu {
+ public:
+  Tabu(const ConflictGraph& graph, const Colouring& start)
+      : graph_(graph),
+        count_(static_cast<std::size_t>(start.count) - 1),
+        colours_(start.colours),
+        around_(graph.size() * count_, 0),
+        free_at_(graph.size() * count_, 0) {
+    for (int& colour : colours_)
+      if (colour == start.count - 1) colour = static_cast<int>(random_() % count_);
+    for (std::size_t node = 0; node < graph.size(); ++node)
+      for (const int other : graph[node]) ++around(other, colours_[node]);
+    for (std::size_t node = 0; node < graph.size(); ++node) note(static_cast<int>(node));
   }
-  return out;
-}
+
+  /// False where `moves` did not suffice.
+  bool search(int moves) {
+    for (int move = 0; move < moves && !in_conflict_.empty(); ++move) step(move);
+    return in_conflict_.empty();
+  }
+
+  Colouring colouring() const { return {colours_, static_cast<int>(count_)}; }
+
+ private:
+  std::size_t cell(int node, int colour) const {
+    return static_cast<std::size_t>(node) * count_ + static_cast<std::size_t>(colour);
+  }
+  int& around(int node, int colour) { return around_[cell(node, colour)]; }
+  int colour_of(int node) const { return colours_[static_cast<std::size_t>(node)]; }
+
+  void note(int node) {
+    if (around(node, colour_of(node)) > 0)
+      in_conflict_.insert(node);
+    else
+      in_conflict_.erase(node);
+  }
+
+  void step(int move) {
+    int best_node = -1, best_colour = 0, best = std::numeric_limits<int>::max(), ties = 0;
+    for (const int node : in_conflict_)
+      for (int colour = 0; colour < static_cast<int>(count_); ++colour) {
+        const int change = around(node, colour) - around(node, colour_of(node));
+        if (colour == colour_of(node) || change > best || free_at_[cell(node, colour)] > move) continue;
+        ties = change < best ? 1 : ties + 1;
+        best = change;
+        if (random_() % static_cast<unsigned>(ties) != 0) continue;
+        best_node = node;
+        best_colour = colour;
+      }
+    if (best_node >= 0) take(best_node, best_colour, move);
+  }
+
+  void take(int node, int colour, int move) {
+    const int before = colour_of(node);
+    const int length =
+        static_cast<int>(random_() % 10) + static_cast<int>(0.6 * static_cast<double>(in_conflict_.size()));
+    free_at_[cell(node, before)] = move + 1 + length;
+    colours_[static_cast<std::size_t>(node)] = colour;
+    for (const int other : graph_[static_cast<std::size_t>(node)]) {
+      --around(other, before);
+      ++around(other, colour);
+      if (colour_of(other) == before || colour_of(other) == colour) note(other);
+    }
+    note(node);
+  }
+
+  const ConflictGraph& graph_;
+  std::size_t count_;
+  std::vector<int> colours_;
+  std::vector<int> around_;   ///< for each node and colour: neighbours that have it
+  std::vector<int> free_at_;  ///< for each node and colour: the move from which on it may be taken again
+  std::set<int> in_conflict_;
+  std::mt19937 random_{1};
+};
 
 }  // namespace
 
-Colouring colour(const ConflictGraph& graph, int enough, int passes) {
+Colouring colour(const ConflictGraph& graph, int enough, int moves) {
   Colouring out = dsatur(graph);
-  std::mt19937 random(1);
-  for (int pass = 0; pass < passes && out.count > enough; ++pass) {
-    std::vector<int> rank;
-    for (int colour = 0; colour < out.count; ++colour) rank.push_back(colour);
-    if (pass % 2 == 0) {
-      std::reverse(rank.begin(), rank.end());
-    } else {
-      for (std::size_t i = rank.size() - 1; i > 0; --i) std::swap(rank[i], rank[random() % (i + 1)]);
-    }
-    out = refit(graph, out, rank);
+  while (out.count > std::max(enough, 1)) {
+    Tabu tabu(graph, out);
+    if (!tabu.search(moves)) break;
+    out = tabu.colouring();
   }
   return out;
 }

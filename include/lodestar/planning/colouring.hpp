@@ -13,9 +13,9 @@ struct Colouring {
   int count = 0;             ///< of colours, 0 to count - 1
 };
 
-/// Few colours: DSATUR (D. Brelaz, Comm. ACM 22, 1979), then iterated greedy passes (J. Culberson, TR 92-07, Univ. of
-/// Alberta, 1992), which never need more colours than before, until `enough` are left or `passes` are through. The same
-/// input gives the same colours.
-Colouring colour(const ConflictGraph& graph, int enough, int passes);
+/// Few colours: DSATUR (D. Brelaz, Comm. ACM 22, 1979), then one colour after the other is given up by tabu search
+/// (A. Hertz, D. de Werra, Computing 39, 1987) until `enough` are left or `moves` do not do for one. The same input
+/// gives the same colours.
+Colouring colour(const ConflictGraph& graph, int enough, int moves);
 
 }  // namespace lodestar
