@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/sensing/beacon/tone_bank.hpp"
@@ -117,7 +118,7 @@ class Bench {
     Assessed out;
     out.code = code;
     out.usable = decibel(imbalance) < detector.balance_db;
-    out.robust = decibel(imbalance) < detector.balance_db - kReserve_db;
+    out.robust = decibel(imbalance) < detector.balance_db - kReserve_db / 2;
     for (int tone = 0; tone < highest.size(); ++tone) {
       if (code.contains(tone)) continue;
       if (decibel(highest[tone]) > -detector.margin_db) out.disturbs |= ToneSet{tone}.bits();
@@ -144,24 +145,27 @@ int count(const std::vector<Assessed>& codes, std::uint32_t table, Passes&& pass
   }));
 }
 
-/// Takes tones out as long as that leaves more codes than before.
+/// Takes tones out as long as that leaves more codes than before, then those that no code is left of.
 template <class Passes>
 std::uint32_t choose_table(const std::vector<Assessed>& codes, std::size_t tones, Passes&& passes) {
   std::uint32_t table = 0;
   for (std::size_t i = 0; i < tones; ++i) table |= std::uint32_t{1} << i;
-  for (int most = count(codes, table, passes);;) {
-    std::uint32_t best = table;
+  int most = count(codes, table, passes);
+  for (std::uint32_t best = 0; best != table;) {
+    best = table;
     for (std::size_t i = 0; i < tones; ++i) {
       const std::uint32_t without = table & ~(std::uint32_t{1} << i);
       const int left = count(codes, without, passes);
-      if (left > most) {
-        most = left;
-        best = without;
-      }
+      if (left <= most) continue;
+      most = left;
+      best = without;
     }
-    if (best == table) return table;
-    table = best;
+    std::swap(best, table);
   }
+  std::uint32_t used = 0;
+  for (const Assessed& a : codes)
+    if ((a.code.bits() & ~table) == 0 && passes(a, table)) used |= a.code.bits();
+  return used;
 }
 
 /// The codes by their indices into the table that is left.

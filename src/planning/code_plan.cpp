@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostSlots = 256;
 constexpr int kMoves = 20000, kStretchMoves = 2000;  // of the search for a colouring
-constexpr double kMostStretch = 4, kStretchStep = 0.02;
+constexpr double kMostStretch = 4, kStretchStep = 0.05;
 
 /// The beacons with what a camera sees of them, or why a beacon cannot be seen.
 Result<std::vector<Lit>, std::string> light_up(const std::vector<Beacon>& beacons, const View& view) {
@@ -43,6 +43,13 @@ Colouring few_colours(const std::vector<Lit>& lit, double stretch, int enough, i
   return smaller ? *smaller : searched;
 }
 
+/// Whether some beacons around one of them are all in conflict with one another and more than `labels`.
+bool too_crowded(const std::vector<Lit>& lit, double stretch, int labels) {
+  const ConflictGraph half = conflicts(lit, stretch / 2);
+  return std::any_of(half.begin(), half.end(),
+                     [&](const auto& near) { return static_cast<int>(near.size()) >= labels; });
+}
+
 /// Labels that return as far away as a search finds, at most `labels` of them.
 /// @param least a colouring with at most that many
 Colouring spread(const std::vector<Lit>& lit, int labels, Colouring least) {
@@ -54,6 +61,10 @@ Colouring spread(const std::vector<Lit>& lit, int labels, Colouring least) {
   double works = 1, fails = kMostStretch;
   while (fails - works > kStretchStep) {
     const double stretch = 0.5 * (works + fails);
+    if (too_crowded(lit, stretch, labels)) {
+      fails = stretch;
+      continue;
+    }
     Colouring wider = few_colours(lit, stretch, labels, kStretchMoves);
     if (wider.count <= labels) {
       works = stretch;

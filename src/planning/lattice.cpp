@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace lodestar {
@@ -36,6 +35,28 @@ double mean_spacing_m(const std::vector<Lit>& beacons) {
   return std::max(std::sqrt(size.x() * size.y() / count), size.maxCoeff() / count);
 }
 
+using Difference = std::pair<int, int>;  // in rows, in columns
+
+/// By how much beacons in conflict differ, each difference once; { {0, 0} } as soon as two fall on one place.
+std::vector<Difference> conflicting_differences(const ConflictGraph& graph, const std::vector<int>& row,
+                                                const std::vector<int>& column) {
+  const int rows = *std::max_element(row.begin(), row.end()), columns = *std::max_element(column.begin(), column.end());
+  const auto width = static_cast<std::size_t>(2 * columns + 1);
+  std::vector<bool> met(static_cast<std::size_t>(rows + 1) * width, false);
+  std::vector<Difference> out;
+  for (std::size_t i = 0; i < graph.size(); ++i)
+    for (const int other : graph[i]) {
+      const auto j = static_cast<std::size_t>(other);
+      const Difference d{row[i] - row[j], column[i] - column[j]};
+      if (d == Difference{0, 0}) return {d};
+      if (d.first < 0) continue;  // the other way round it is not
+      const std::size_t cell = static_cast<std::size_t>(d.first) * width + static_cast<std::size_t>(d.second + columns);
+      if (!met[cell]) out.push_back(d);
+      met[cell] = true;
+    }
+  return out;
+}
+
 int wrap(int value, int count) { return (value % count + count) % count; }
 
 }  // namespace
@@ -45,17 +66,12 @@ std::optional<Colouring> lattice_colouring(const std::vector<Lit>& beacons, cons
   const double gap_m = kGap * mean_spacing_m(beacons);
   const std::vector<int> row = rows(beacons, 1, gap_m), column = rows(beacons, 0, gap_m);
 
-  std::set<std::pair<int, int>> differences;
-  for (std::size_t i = 0; i < graph.size(); ++i)
-    for (const int other : graph[i]) {
-      const auto j = static_cast<std::size_t>(other);
-      if (j < i) differences.emplace(row[i] - row[j], column[i] - column[j]);
-    }
-  if (differences.count({0, 0}) > 0) return std::nullopt;
+  const auto differences = conflicting_differences(graph, row, column);
+  if (differences.empty() || differences.front() == Difference{0, 0}) return std::nullopt;
 
   for (int count = 1; count <= most; ++count)
     for (int b = 0; b < count; ++b) {
-      const auto clashes = [&](const std::pair<int, int>& d) { return wrap(d.first + b * d.second, count) == 0; };
+      const auto clashes = [&](const Difference& d) { return wrap(d.first + b * d.second, count) == 0; };
       if (std::any_of(differences.begin(), differences.end(), clashes)) continue;
       Colouring out{{}, count};
       for (std::size_t i = 0; i < beacons.size(); ++i) out.colours.push_back(wrap(row[i] + b * column[i], count));

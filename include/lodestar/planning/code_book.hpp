@@ -21,11 +21,12 @@ struct CodeBookParams {
 struct CodeBook {
   std::vector<double> tone_table_hz;  ///< ascending, at most ToneSet::kMaxTones
   std::vector<ToneSet> codes;         ///< indices into the table; best first
-  int robust = 0;                     ///< how many of the codes keep kReserve_db more than the detector asks for
+  int robust = 0;                     ///< codes that keep other tones kReserve_db lower than the detector asks for
   int guard = 0;                      ///< tones stay 1 bin from 0 Hz and half a bin from lamps and Nyquist, times this
 };
 
-constexpr double kReserve_db = 3;
+/// A square wave's third harmonic, 9.5 dB below its tone, is then too much for a robust code.
+constexpr double kReserve_db = 4;
 
 /// The book of the strictest rules that holds `wanted` codes; if none does, the book with the most codes, which may be
 /// empty. Tones are multiples of rate / window and pass check_tones. Reference: docs/math/code_plan.md.
