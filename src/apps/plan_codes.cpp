@@ -59,11 +59,12 @@ Waveform waveform(const po::variables_map& options) {
 
 CodePlanParams read_params(const po::variables_map& options) {
   CodePlanParams params;
-  params.book.rate_hz = number(options, "fps", 0, 2000, " frames/s");
-  params.book.window_frames = whole(options, "window", 4, 600);
-  params.book.mains_hz = options["mains"].as<double>();
-  if (params.book.mains_hz != 50 && params.book.mains_hz != 60)
-    throw UserError("--mains is " + std::to_string(params.book.mains_hz) + " Hz, it must be 50 or 60.");
+  params.book.rate_hz = number(options, "fps", 0, 1000, " frames/s");
+  params.book.window_frames = whole(options, "window", 5, 300);
+  const int mains_hz = options["mains"].as<int>();
+  if (mains_hz != 50 && mains_hz != 60)
+    throw UserError("--mains is " + std::to_string(mains_hz) + " Hz, it must be 50 or 60.");
+  params.book.mains_hz = mains_hz;
   params.book.waveform = waveform(options);
   if (params.book.waveform == Waveform::kSquare) params.book.tones_per_code = {1};
   if (options.count("tones-per-code")) {
@@ -100,7 +101,8 @@ void print(const CodePlan& plan, const CodePlanParams& params) {
   const Link& link = plan.site.link;
   std::printf("beacons    %zu; one camera position sees up to %d, at x %.1f m, y %.1f m\n", plan.site.beacons.size(),
               plan.crowd.beacons, plan.crowd.camera_map.x(), plan.crowd.camera_map.y());
-  std::printf("apart      %.1f m between beacons that share a code or a slot, at least\n", plan.separation_m);
+  std::printf("apart      %.1f m where the view is widest: nearer beacons share neither code nor slot\n",
+              plan.separation_m);
   std::printf("tones      %s Hz\n", join(plan.book.tone_table_hz).c_str());
   std::printf("codes      %zu, %d of them with %g dB to spare where the camera clips; %d used, %s\n",
               plan.book.codes.size(), plan.book.robust, kReserve_db, plan.codes_used, reuse(plan.code_reuse_m).c_str());
@@ -166,8 +168,8 @@ int main(int argc, char** argv) {
   namespace po = boost::program_options;
   po::options_description options("Options");
   options.add_options()("fps", po::value<double>()->required(), "rate of the camera, frames/s")(
-      "window", po::value<int>()->required(), "frames of the detector's window")(
-      "mains", po::value<double>()->required(), "what the lamps run on, 50 or 60 Hz")(
+      "window", po::value<int>()->required(), "frames of the detector's window")("mains", po::value<int>()->required(),
+                                                                                 "what the lamps run on, 50 or 60 Hz")(
       "waveform", po::value<std::string>()->required(), "sine or square")(
       "beacons", po::value<std::string>()->required(), "site file (YAML): where the beacons hang")(
       "out", po::value<std::string>(), "write the complete site file here")("plot", po::value<std::string>(),

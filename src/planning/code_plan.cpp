@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -90,27 +91,39 @@ std::optional<double> nearest_alike_m(const std::vector<Lit>& lit, const std::ve
 /// What the crowd and the colouring ask for, as the start of a sentence.
 std::string demand(const Colouring& least, const Crowd& crowd, const char* what) {
   std::ostringstream out;
-  out << "the beacons need " << least.count << " " << what << " (a camera at x " << crowd.camera_map.x() << " m, y "
-      << crowd.camera_map.y() << " m sees " << crowd.beacons << " at once), ";
+  out << std::setprecision(4) << "the beacons need " << least.count << " " << what << " (a camera at x "
+      << crowd.camera_map.x() << " m, y " << crowd.camera_map.y() << " m sees " << crowd.beacons << " at once), ";
   return out.str();
 }
 
-std::string too_few_codes(const CodePlanParams& params, const CodeBook& book, const Colouring& least,
+/// Command lines with which the codes would do.
+std::string ways_out(const CodeBookParams& params, int wanted) {
+  std::string out;
+  const auto try_with = [&](const CodeBookParams& other, const std::string& option) {
+    const std::size_t codes = make_code_book(other, wanted).codes.size();
+    const bool does = codes >= static_cast<std::size_t>(wanted);
+    if (does) out += "use " + option + " (" + std::to_string(codes) + " codes), or ";
+    return does;
+  };
+  CodeBookParams sine = params;
+  sine.waveform = Waveform::kSine;
+  sine.tones_per_code = CodeBookParams{}.tones_per_code;
+  if (params.waveform == Waveform::kSquare) try_with(sine, "--waveform sine");
+  for (int times = 2; times <= 4; ++times) {
+    CodeBookParams longer = params;
+    longer.window_frames *= times;
+    if (try_with(longer, "--window " + std::to_string(longer.window_frames))) break;
+  }
+  return out;
+}
+
+std::string too_few_codes(const CodeBookParams& params, const CodeBook& book, const Colouring& least,
                           const Crowd& crowd) {
   std::ostringstream why;
-  why << demand(least, crowd, "codes") << "but " << book.tone_table_hz.size() << " tones at " << params.book.rate_hz
-      << " frames/s, a window of " << params.book.window_frames << " and " << params.book.mains_hz << " Hz mains make "
-      << book.codes.size() << ": ";
-  for (int times = 2; times <= 4; ++times) {
-    CodeBookParams longer = params.book;
-    longer.window_frames *= times;
-    const std::size_t codes = make_code_book(longer, least.count).codes.size();
-    if (static_cast<int>(codes) < least.count) continue;
-    why << "use --window " << longer.window_frames << " (" << codes << " codes), ";
-    break;
-  }
-  if (params.book.waveform == Waveform::kSquare) why << "use --waveform sine, ";
-  why << "or hang the beacons wider apart, or raise --camera-height or lower --range as far as is true.";
+  why << demand(least, crowd, "codes") << "but " << params.rate_hz << " frames/s, a window of " << params.window_frames
+      << " and " << params.mains_hz << " Hz mains leave " << book.tone_table_hz.size() << " tones and "
+      << book.codes.size() << " codes: " << ways_out(params, least.count)
+      << "hang the beacons wider apart, or raise --camera-height or lower --range as far as is true.";
   return why.str();
 }
 
@@ -153,7 +166,7 @@ Result<CodePlan, std::string> plan_codes(const Site& survey, const CodePlanParam
   const Colouring least = few_colours(*lit, 1, plan.crowd.beacons, kMoves);
   plan.book = make_code_book(params.book, least.count);
   const int code_count = static_cast<int>(plan.book.codes.size());
-  if (code_count < least.count) return too_few_codes(params, plan.book, least, plan.crowd);
+  if (code_count < least.count) return too_few_codes(params.book, plan.book, least, plan.crowd);
   const auto slot_count = choose_slot_count(survey, params, least, plan.crowd);
   if (!slot_count) return slot_count.error();
 

@@ -81,9 +81,14 @@ TEST(CodePlan, says_why_there_is_none_and_what_helps) {
   square.book.tones_per_code = {1};
   const std::string codes = why_not(row(100, 2.2), square);
   EXPECT_TRUE(holds(codes, "need 15 codes"));
-  EXPECT_TRUE(holds(codes, "make 12:")) << codes;
+  EXPECT_TRUE(holds(codes, "leave 12 tones and 12 codes")) << codes;
   EXPECT_TRUE(holds(codes, "--waveform sine"));
   EXPECT_TRUE(holds(codes, "use --window"));
+
+  CodePlanParams slow;
+  slow.book.rate_hz = 10;
+  slow.book.window_frames = 5;
+  EXPECT_TRUE(holds(why_not(row(2, 5), slow), "leave 0 tones and 0 codes: hang"));
 
   CodePlanParams slots;
   slots.slot_count = 8;
