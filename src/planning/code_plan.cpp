@@ -132,8 +132,8 @@ Result<int, std::string> choose_slot_count(const Site& survey, const CodePlanPar
   const int most = params.slot_count.value_or(kMostSlots);
   if (least.count > most)
     return demand(least, crowd, "slots") + "but the limit is " + std::to_string(most) + ": " +
-           (least.count <= kMostSlots ? "use --slots " + std::to_string(least.count) + ", " : "") +
-           "or hang the beacons wider apart.";
+           (least.count <= kMostSlots ? "use --slots " + std::to_string(least.count) + ", or " : "") +
+           "hang the beacons wider apart.";
   return params.slot_count.value_or(std::max(survey.link.slot_count, least.count));
 }
 
@@ -163,6 +163,8 @@ Result<CodePlan, std::string> plan_codes(const Site& survey, const CodePlanParam
 
   CodePlan plan;
   plan.crowd = most_in_view(*lit);
+  if (plan.crowd.beacons > kMostSlots)
+    return choose_slot_count(survey, params, {{}, plan.crowd.beacons}, plan.crowd).error();
   const Colouring least = few_colours(*lit, 1, plan.crowd.beacons, kMoves);
   plan.book = make_code_book(params.book, least.count);
   const int code_count = static_cast<int>(plan.book.codes.size());

@@ -85,6 +85,9 @@ TEST(CodePlan, says_why_there_is_none_and_what_helps) {
   EXPECT_TRUE(holds(codes, "--waveform sine"));
   EXPECT_TRUE(holds(codes, "use --window"));
 
+  EXPECT_TRUE(holds(why_not(row(300, 0.1), {}), "need 300 slots"));
+  EXPECT_TRUE(holds(why_not(row(300, 0.1), {}), "the limit is 256: hang the beacons wider apart"));
+
   CodePlanParams slow;
   slow.book.rate_hz = 10;
   slow.book.window_frames = 5;
