@@ -66,7 +66,7 @@ Result<std::vector<Hypothesis>, NoFix> hypotheses(const BearingFit& model, const
       for (const TwoBeaconRoot& root : *roots) {
         if (!root.in_front()) continue;
         ++in_front;
-        const PoseUnknowns unknowns = model.at_camera(root.camera_map, root.yaw_rad);
+        const PoseUnknowns unknowns = model.at_camera(root.camera_map, std::atan2(root.yaw_sin, root.yaw_cos));
         found.push_back({unknowns, score(model, unknowns, gate_chi2)});
       }
       counts.behind += in_front == 0;
