@@ -1,24 +1,35 @@
 #pragma once
 
+#include <boost/container/static_vector.hpp>
 #include <optional>
-#include <vector>
 
-#include "bearing_fit.hpp"
 #include "lodestar/base/common/result.hpp"
+#include "lodestar/estimation/pose/bearing_fit.hpp"
 #include "lodestar/estimation/pose/pose_solver.hpp"
 
 namespace lodestar {
 
 /// A pose that explains two of the bearings, and how badly it does with all.
 struct Hypothesis {
-  PoseUnknowns unknowns;
+  LevelledPose pose;
   double score = 0;  ///< sum of the squared residuals, each cut off at the gate
 };
+constexpr int kMaxHypotheses = 12;
+using Hypotheses = boost::container::static_vector<Hypothesis, kMaxHypotheses>;
 
-/// The closed form's roots for all pairs, best score first, or why no pair has one. Scores count the common error of
-/// tilt and mount as noise of each bearing.
+/// Variance of the direction that the tilt adds to each bearing, where it counts as the bearing's own.
+Eigen::Matrix2d tilt_covariance(const BearingFit& model);
+
+/// Whether both are one pose, found twice: within 0.3 m and 0.1 rad.
+bool same_pose(const LevelledPose& a, const LevelledPose& b);
+
+/// The closed form's roots that pass the projection test, for the pair that fixes yaw about best. Unscored; empty where
+/// that pair has none.
+Hypotheses hypotheses_of_widest_pair(const BearingFit& model);
+
+/// The closed form's roots for all pairs, the best that differ, best score first, or why no pair has one. Scores count
+/// the tilt's error, common to all bearings, as noise of each.
 /// @param gate_chi2 of one bearing's residual (2 degrees of freedom)
-Result<std::vector<Hypothesis>, NoFix> hypotheses(const BearingFit& model, const std::vector<BeaconBearing>& bearings,
-                                                  double gate_chi2);
+Result<Hypotheses, NoFix> hypotheses_of_all_pairs(const BearingFit& model, double gate_chi2);
 
 }  // namespace lodestar
