@@ -8,18 +8,16 @@
 namespace lodestar {
 namespace {
 
-constexpr double kConverged_chi2 = 1e-6;  ///< a step of a thousandth of a sigma
+constexpr double kConverged_chi2 = 1e-10;
 /// A step may raise chi2 by so much: the survey's weights change a little with the ranges.
 constexpr double kHarmless_chi2 = 0.1;
 constexpr int kMaxIterations = 20, kMaxHalvings = 8;
 
 /// Two unit vectors that make a right-handed frame with a third: Duff et al., "Building an orthonormal basis,
 /// revisited", JCGT 2017.
-Eigen::Matrix<double, 2, 3> tangent_basis(const Eigen::Vector3d& n) {
+std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents(const Eigen::Vector3d& n) {
   const double sign = std::copysign(1.0, n.z()), a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
-  Eigen::Matrix<double, 2, 3> basis;
-  basis << 1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x(), b, sign + n.y() * n.y() * a, -n.y();
-  return basis;
+  return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}};
 }
 
 Eigen::Matrix2d inverse(const Eigen::Matrix2d& S) {
@@ -31,6 +29,10 @@ Eigen::Matrix2d inverse(const Eigen::Matrix2d& S) {
 
 /// What gravity and R_map_level disagree in, about the levelled x and y axes.
 Eigen::Vector2d tilt_rad(const Eigen::Matrix3d& R_map_level) { return {R_map_level(2, 1), -R_map_level(2, 0)}; }
+
+/// What a further step would gain after one that gained gain_chi2: the square of how far the model bends over the step
+/// (a metre is at least as near as a beacon), and what the residuals, milliradians, add to the model's slope.
+double next_gain_chi2(double gain_chi2, const PoseStep& step) { return gain_chi2 * (10 * step.squaredNorm() + 1e-5); }
 
 LevelledPose moved(const LevelledPose& pose, const PoseStep& step) {
   const Eigen::Quaterniond turn(1, 0.5 * step(kTilt), 0.5 * step(kTilt + 1), 0.5 * step(kYaw));
@@ -51,13 +53,14 @@ BearingFit::BearingFit(const std::vector<BeaconBearing>& bearings, const Eigen::
     : rays_(bearings.size(), boost::container::default_init), tilt_variance_(tilt_sigma_rad * tilt_sigma_rad) {
   for (std::size_t i = 0; i < bearings.size(); ++i) {
     const BeaconBearing& bearing = bearings[i];
-    const Eigen::Matrix<double, 2, 3> tangent_camera = tangent_basis(bearing.direction_camera);
+    const auto [x_camera, y_camera] = tangents(bearing.direction_camera);
+    const Eigen::Vector3d Cx = bearing.covariance * x_camera, Cy = bearing.covariance * y_camera;
     Ray& ray = rays_[i];
-    ray.beacon_map = bearing.position_map;
-    ray.direction_level.noalias() = R_level_camera * bearing.direction_camera;
-    ray.tangent_level.noalias() = tangent_camera * R_level_camera.transpose();
-    const Eigen::Matrix<double, 2, 3> TC = tangent_camera * bearing.covariance;
-    ray.covariance.noalias() = TC * tangent_camera.transpose();
+    ray.bearing.beacon_map = bearing.position_map;
+    ray.bearing.direction_level.noalias() = R_level_camera * bearing.direction_camera;
+    ray.x_level.noalias() = R_level_camera * x_camera;
+    ray.y_level.noalias() = R_level_camera * y_camera;
+    ray.covariance = {x_camera.dot(Cx), x_camera.dot(Cy), y_camera.dot(Cy)};
     ray.survey_variance_m2 = bearing.position_sigma_m * bearing.position_sigma_m;
   }
 }
@@ -65,51 +68,53 @@ BearingFit::BearingFit(const std::vector<BeaconBearing>& bearings, const Eigen::
 bool BearingFit::valid() const {
   constexpr double kLeast = 1e-16;
   return std::all_of(rays_.begin(), rays_.end(), [](const Ray& ray) {
-    const double rest0 = ray.covariance(0, 0) - kLeast, rest1 = ray.covariance(1, 1) - kLeast;
-    return rest0 > 0 && rest0 * rest1 > ray.covariance(0, 1) * ray.covariance(1, 0);
+    const Covariance2 rest{ray.covariance.xx - kLeast, ray.covariance.xy, ray.covariance.yy - kLeast};
+    return rest.xx > 0 && rest.determinant() > 0;
   });
 }
 
-double BearingFit::Residual::chi2(const Eigen::Matrix2d& extra) const {
-  return value_rad.dot(inverse(covariance + extra) * value_rad);
-}
+/// A bearing's part of the normal equations, before it is summed.
+struct BearingFit::Rows {
+  std::array<PoseStep, 2> J;
+  Covariance2 S;
+  double x_rad, y_rad;
+};
 
-BearingFit::Residual BearingFit::residual(int i, const LevelledPose& pose) const {
+void BearingFit::set_rows(int i, const Residual& r, Rows& out) const {
   const Ray& ray = rays_[i];
-  const Eigen::Vector3d arm_level = pose.R_map_level.transpose() * (ray.beacon_map - pose.camera_map);
-  const double per_range2 = 1 / arm_level.squaredNorm(), per_range = std::sqrt(per_range2);
-  Residual out;
-  out.range_m = arm_level.squaredNorm() * per_range;
-  out.direction_level = per_range * arm_level;
-  out.value_rad.noalias() = ray.tangent_level * out.direction_level;
-  out.covariance = ray.covariance;
-  out.covariance.diagonal().array() += ray.survey_variance_m2 * per_range2;
-  out.in_front = out.direction_level.dot(ray.direction_level) > 0;
-  return out;
+  const Eigen::Vector3d &m = ray.bearing.direction_level, &w = r.arm_level;
+  const auto set = [&](const Eigen::Vector3d& tangent, double value_rad, PoseStep& row) {
+    const double x = r.per_depth * (tangent.x() - value_rad * m.x());
+    const double y = r.per_depth * (tangent.y() - value_rad * m.y());
+    const double z = r.per_depth * (tangent.z() - value_rad * m.z());
+    row[0] = -x;
+    row[1] = -y;
+    row[2] = -z;
+    row[3] = x * w.y() - y * w.x();
+    row[4] = y * w.z() - z * w.y();
+    row[5] = z * w.x() - x * w.z();
+  };
+  set(ray.x_level, r.x_rad, out.J[0]);
+  set(ray.y_level, r.y_rad, out.J[1]);
+  out.S = r.covariance;
+  out.x_rad = r.x_rad;
+  out.y_rad = r.y_rad;
 }
 
-Eigen::Matrix<double, 2, 6> BearingFit::jacobian(int i, const Residual& residual) const {
-  const Eigen::Matrix<double, 2, 3>& T = rays_[i].tangent_level;
-  const Eigen::Vector3d& d = residual.direction_level;
-  const double per_range = 1 / residual.range_m;
-  Eigen::Matrix<double, 2, 6> J;
-  for (int k = 0; k < 2; ++k) {
-    for (int axis = 0; axis < 3; ++axis) J(k, axis) = per_range * (residual.value_rad(k) * d(axis) - T(k, axis));
-    J(k, kYaw) = T(k, 0) * d.y() - T(k, 1) * d.x();
-    J(k, kTilt) = T(k, 1) * d.z() - T(k, 2) * d.y();
-    J(k, kTilt + 1) = T(k, 2) * d.x() - T(k, 0) * d.z();
-  }
-  return J;
+BearingFit::Covariance2 BearingFit::innovation(int i, const Residual& r, const PoseStepCovariance& P) const {
+  Rows rows;
+  set_rows(i, r, rows);
+  const PoseStep PJx = P * rows.J[0], PJy = P * rows.J[1];
+  return {rows.J[0].dot(PJx), rows.J[0].dot(PJy), rows.J[1].dot(PJy)};
 }
 
-void BearingFit::add(int i, const LevelledPose& pose, Normal& normal) const {
-  const Residual r = residual(i, pose);
-  const Eigen::Matrix<double, 2, 6> J = jacobian(i, r);
-  const Eigen::Matrix2d W = inverse(r.covariance);
-  const Eigen::Matrix<double, 2, 6> WJ = W * J;
-  normal.A.noalias() += J.transpose() * WJ;
-  normal.g.noalias() += WJ.transpose() * r.value_rad;
-  normal.chi2 += r.value_rad.dot(W * r.value_rad);
+void BearingFit::Normal::add(const Rows& r) {
+  const Covariance2 W = r.S.inverse();
+  const PoseStep WJx = W.xx * r.J[0] + W.xy * r.J[1], WJy = W.xy * r.J[0] + W.yy * r.J[1];
+  A.noalias() += WJx * r.J[0].transpose();
+  A.noalias() += WJy * r.J[1].transpose();
+  g += r.x_rad * WJx + r.y_rad * WJy;
+  chi2 += W.of(r.x_rad, r.y_rad);
 }
 
 void BearingFit::add_gravity(const LevelledPose& pose, Normal& normal) const {
@@ -119,12 +124,14 @@ void BearingFit::add_gravity(const LevelledPose& pose, Normal& normal) const {
   normal.chi2 += tilt.squaredNorm() / tilt_variance_;
 }
 
-BearingFit::Normal BearingFit::normal_equations(const LevelledPose& pose, const Selection& selection,
-                                                Gravity gravity) const {
-  Normal normal;
+BearingFit::Normal BearingFit::normal_equations(const LevelledPose& pose, const Selection& selection) const {
+  boost::container::small_vector<Rows, 16> all(size(), boost::container::default_init);
+  int count = 0;
   for (int i = 0; i < size(); ++i)
-    if (selection[i]) add(i, pose, normal);
-  if (gravity == Gravity::kPrior) add_gravity(pose, normal);
+    if (selection[i]) set_rows(i, residual(i, pose), all[count++]);
+  Normal normal;
+  for (int i = 0; i < count; ++i) normal.add(all[i]);
+  add_gravity(pose, normal);
   return normal;
 }
 
@@ -134,7 +141,8 @@ struct BearingFit::Solution {
   Eigen::Matrix4d V;
   Eigen::Matrix<double, 4, 2> K;
   Eigen::Matrix2d tilt;
-  PoseStep step;
+  PoseStep step;       ///< to the answer
+  PoseStep explained;  ///< to what explains all: the same but where gravity is given
   bool regular;
 
   PoseStepCovariance covariance() const {
@@ -152,51 +160,77 @@ BearingFit::Solution BearingFit::solve(const Normal& normal, Gravity gravity) co
   Solution out;
   out.V = normal.A.topLeftCorner<4, 4>().inverse();
   out.K.noalias() = -out.V * normal.A.topRightCorner<4, 2>();
-  out.step.head<4>().noalias() = -out.V * normal.g.head<4>();
+  const Eigen::Matrix2d S = normal.A.bottomRightCorner<2, 2>() + normal.A.topRightCorner<4, 2>().transpose() * out.K;
+  out.tilt = inverse(S);
+  const Eigen::Vector4d tilt_held = -out.V * normal.g.head<4>();
+  const Eigen::Vector2d tilt_step = -out.tilt * (normal.g.tail<2>() + out.K.transpose() * normal.g.head<4>());
+  out.explained << tilt_held + out.K * tilt_step, tilt_step;
+  out.step = out.explained;
   if (gravity == Gravity::kGiven) {
+    out.step << tilt_held, Eigen::Vector2d::Zero();
     out.tilt = tilt_variance_ * Eigen::Matrix2d::Identity();
-    out.step.tail<2>().setZero();
-  } else {
-    const Eigen::Matrix2d S = normal.A.bottomRightCorner<2, 2>() + normal.A.topRightCorner<4, 2>().transpose() * out.K;
-    out.tilt = inverse(S);
-    out.step.tail<2>().noalias() = -out.tilt * (normal.g.tail<2>() + out.K.transpose() * normal.g.head<4>());
-    out.step.head<4>().noalias() += out.K * out.step.tail<2>();
   }
   out.regular = out.V.diagonal().minCoeff() > 0 && out.tilt.diagonal().minCoeff() > 0 && out.V.allFinite() &&
-                out.step.allFinite();
+                out.explained.allFinite();
   return out;
 }
 
-PoseFit BearingFit::at(const LevelledPose& exact, Gravity gravity) const {
-  Normal normal;
-  for (int i = 0; i < size(); ++i) add(i, exact, normal);
-  if (gravity == Gravity::kPrior) add_gravity(exact, normal);
-  const Solution solution = solve(normal, gravity);
-  return {exact, solution.covariance(), normal.chi2, solution.regular};
+PoseFit BearingFit::of_root(const TwoBeaconRoot& root) const {
+  PoseFit out;
+  out.pose = out.explained = LevelledPose::of(root);
+  Rows rows[2];
+  Eigen::Matrix4d J;
+  Eigen::Matrix<double, 4, 2> J_tilt;
+  for (int i = 0; i < 2; ++i) {
+    set_rows(i, residual(i, out.pose), rows[i]);
+    for (int k = 0; k < 2; ++k) {
+      for (int column = 0; column < 4; ++column) J(2 * i + k, column) = rows[i].J[k](column);
+      for (int column = 0; column < 2; ++column) J_tilt(2 * i + k, column) = rows[i].J[k](kTilt + column);
+    }
+  }
+  const Eigen::Matrix4d X = J.inverse();
+  const Eigen::Matrix<double, 4, 2> K = -X * J_tilt;
+  Eigen::Matrix4d XS;
+  for (int i = 0; i < 2; ++i) {
+    const Covariance2& S = rows[i].S;
+    XS.col(2 * i) = S.xx * X.col(2 * i) + S.xy * X.col(2 * i + 1);
+    XS.col(2 * i + 1) = S.xy * X.col(2 * i) + S.yy * X.col(2 * i + 1);
+  }
+  out.covariance.topRightCorner<4, 2>() = tilt_variance_ * K;
+  out.covariance.topLeftCorner<4, 4>().noalias() = XS * X.transpose();
+  out.covariance.topLeftCorner<4, 4>().noalias() += out.covariance.topRightCorner<4, 2>() * K.transpose();
+  out.covariance.bottomLeftCorner<2, 4>() = out.covariance.topRightCorner<4, 2>().transpose();
+  out.covariance.diagonal().tail<2>().setConstant(tilt_variance_);
+  out.regular = X.allFinite() && root.miss_m == 0;
+  return out;
 }
 
 PoseFit BearingFit::fit(const LevelledPose& start, const Selection& selection, Gravity gravity) const {
   LevelledPose pose = start;
-  Normal normal = normal_equations(pose, selection, gravity);
+  Normal normal = normal_equations(pose, selection);
   Solution solution = solve(normal, gravity);
+  const auto ended = [&](const LevelledPose& at) -> PoseFit {
+    const double chi2 = normal.chi2 + normal.g.dot(solution.explained);
+    return {at, moved(pose, solution.explained), solution.covariance(), chi2, solution.regular};
+  };
   for (int iteration = 0; iteration < kMaxIterations && solution.regular; ++iteration) {
     const double gain_chi2 = -normal.g.dot(solution.step);
     PoseStep step = solution.step;
     LevelledPose next = moved(pose, step);
-    if (gain_chi2 < kConverged_chi2) return {next, solution.covariance(), normal.chi2 - gain_chi2, true};
-    Normal normal_next = normal_equations(next, selection, gravity);
+    if (next_gain_chi2(gain_chi2, step) < kConverged_chi2) return ended(next);
+    Normal normal_next = normal_equations(next, selection);
     const auto worse = [&] { return !(normal_next.chi2 <= normal.chi2 + kHarmless_chi2); };
     for (int halving = 0; halving < kMaxHalvings && worse(); ++halving) {
       step *= 0.5;
       next = moved(pose, step);
-      normal_next = normal_equations(next, selection, gravity);
+      normal_next = normal_equations(next, selection);
     }
     if (worse()) break;
     pose = next;
     normal = normal_next;
     solution = solve(normal, gravity);
   }
-  return {pose, solution.covariance(), normal.chi2, solution.regular};
+  return ended(pose);
 }
 
 }  // namespace lodestar

@@ -25,11 +25,11 @@ bool stacked(const BearingFit& model, int i, int j) {
 }
 
 double score(const BearingFit& model, const LevelledPose& pose, double gate_chi2) {
-  const Eigen::Matrix2d tilt = tilt_covariance(model);
+  const BearingFit::Covariance2 tilt = model.tilt_covariance();
   double sum = 0;
   for (int i = 0; i < model.size(); ++i) {
     const BearingFit::Residual r = model.residual(i, pose);
-    sum += r.in_front ? std::min(gate_chi2, r.chi2(tilt)) : gate_chi2;
+    sum += r.in_front() ? std::min(gate_chi2, r.chi2(tilt)) : gate_chi2;
   }
   return sum;
 }
@@ -37,10 +37,13 @@ double score(const BearingFit& model, const LevelledPose& pose, double gate_chi2
 /// How steeply equation 4 crosses zero, for its noise: the inverse square of the yaw error a pair makes, but for a
 /// factor. Negative where it does not cross.
 double sharpness(const LevelledBearing& first, const LevelledBearing& second) {
-  const Eigen::Vector3d n = first.direction_level.cross(second.direction_level);
-  const Eigen::Vector3d d = first.beacon_map - second.beacon_map;
-  const double c = n.z() * d.z();
-  return (n.head<2>().squaredNorm() * d.head<2>().squaredNorm() - c * c) / d.squaredNorm();
+  const Eigen::Vector3d &u = first.direction_level, &v = second.direction_level;
+  const Eigen::Vector3d &p = first.beacon_map, &q = second.beacon_map;
+  const double nx = u.y() * v.z() - u.z() * v.y(), ny = u.z() * v.x() - u.x() * v.z(),
+               nz = u.x() * v.y() - u.y() * v.x();
+  const double dx = p.x() - q.x(), dy = p.y() - q.y(), dz = p.z() - q.z();
+  const double d2_xy = dx * dx + dy * dy, c = nz * dz;
+  return ((nx * nx + ny * ny) * d2_xy - c * c) / (d2_xy + dz * dz);
 }
 
 int sharpest_with(const BearingFit& model, int first) {
@@ -56,9 +59,8 @@ int sharpest_with(const BearingFit& model, int first) {
   return best;
 }
 
-/// Keeps the best that differ, in order. Two beacons alone have exactly two roots, however close.
-void keep(Hypotheses& best, const Hypothesis& candidate, bool two_beacons) {
-  if (two_beacons) return best.push_back(candidate);
+/// Keeps the best that differ, in order.
+void keep(Hypotheses& best, const Hypothesis& candidate) {
   for (auto known = best.begin(); known != best.end(); ++known) {
     if (!same_pose(known->pose, candidate.pose)) continue;
     if (known->score <= candidate.score) return;
@@ -74,21 +76,27 @@ void keep(Hypotheses& best, const Hypothesis& candidate, bool two_beacons) {
   best.insert(place, candidate);
 }
 
-/// How many pairs failed, and of what.
-struct PairCounts {
-  int pairs = 0, same_bearing = 0, stacked = 0, without_root = 0, behind = 0;
+Result<Roots, NoFix> roots_of(const BearingFit& model, int i, int j) {
+  if (same_bearing(model, i, j)) return NoFix::kSameBearing;
+  if (stacked(model, i, j)) return NoFix::kStacked;
+  const auto roots = two_beacon_roots(model.bearing(i), model.bearing(j));
+  if (!roots) return roots.error() == TwoBeaconFault::kContradiction ? NoFix::kResidual : NoFix::kDegenerate;
+  Roots passed;
+  for (const TwoBeaconRoot& root : *roots)
+    if (root.in_front()) passed.push_back(root);
+  if (passed.empty()) return NoFix::kBehindCamera;
+  return passed;
+}
 
-  NoFix verdict() const {
-    if (same_bearing == pairs) return NoFix::kSameBearing;
-    if (stacked == pairs) return NoFix::kStacked;
-    if (behind > 0) return NoFix::kBehindCamera;
-    return without_root > 0 ? NoFix::kResidual : NoFix::kDegenerate;
-  }
-};
+/// How many pairs failed, and of what.
+NoFix verdict(const DropCounts<NoFix>& faults, unsigned pairs) {
+  if (faults[NoFix::kSameBearing] == pairs) return NoFix::kSameBearing;
+  if (faults[NoFix::kStacked] == pairs) return NoFix::kStacked;
+  if (faults[NoFix::kBehindCamera] > 0) return NoFix::kBehindCamera;
+  return faults[NoFix::kResidual] > 0 ? NoFix::kResidual : NoFix::kDegenerate;
+}
 
 }  // namespace
-
-Eigen::Matrix2d tilt_covariance(const BearingFit& model) { return model.tilt_variance() * Eigen::Matrix2d::Identity(); }
 
 bool same_pose(const LevelledPose& a, const LevelledPose& b) {
   constexpr double kNear_m = 0.3, kNear_rad = 0.1;
@@ -97,44 +105,36 @@ bool same_pose(const LevelledPose& a, const LevelledPose& b) {
          (a.R_map_level - b.R_map_level).squaredNorm() < 2 * kNear_rad * kNear_rad;
 }
 
+Result<Roots, NoFix> roots_in_front(const BearingFit& two_beacons) { return roots_of(two_beacons, 0, 1); }
+
 Hypotheses hypotheses_of_widest_pair(const BearingFit& model) {
   Hypotheses found;
   int first = 0, second = sharpest_with(model, first);
-  if (second >= 0) first = sharpest_with(model, second);
-  if (second < 0 || same_bearing(model, first, second) || stacked(model, first, second)) return found;
-  if (const auto roots = two_beacon_roots(model.bearing(first), model.bearing(second))) {
-    for (const TwoBeaconRoot& root : *roots)
-      if (root.in_front()) found.push_back({LevelledPose::of(root), 0});
-  }
+  if (second < 0) return found;
+  first = sharpest_with(model, second);
+  if (const auto roots = roots_of(model, first, second))
+    for (const TwoBeaconRoot& root : *roots) found.push_back({LevelledPose::of(root), 0});
   return found;
 }
 
 Result<Hypotheses, NoFix> hypotheses_of_all_pairs(const BearingFit& model, double gate_chi2) {
-  const bool two_beacons = model.size() == 2;
   Hypotheses best;
-  PairCounts counts;
+  DropCounts<NoFix> faults;
+  unsigned pairs = 0;
   for (int i = 0; i < model.size(); ++i)
     for (int j = i + 1; j < model.size(); ++j) {
-      ++counts.pairs;
-      const bool one_bearing = same_bearing(model, i, j), one_vertical = stacked(model, i, j);
-      counts.same_bearing += one_bearing;
-      counts.stacked += one_vertical && !one_bearing;
-      if (one_bearing || one_vertical) continue;
-      const auto roots = two_beacon_roots(model.bearing(i), model.bearing(j));
+      ++pairs;
+      const auto roots = roots_of(model, i, j);
       if (!roots) {
-        counts.without_root += roots.error() == TwoBeaconFault::kContradiction;
+        faults.add(roots.error());
         continue;
       }
-      int in_front = 0;
       for (const TwoBeaconRoot& root : *roots) {
-        if (!root.in_front()) continue;
-        ++in_front;
         const LevelledPose pose = LevelledPose::of(root);
-        keep(best, {pose, two_beacons ? 0 : score(model, pose, gate_chi2)}, two_beacons);
+        keep(best, {pose, score(model, pose, gate_chi2)});
       }
-      counts.behind += in_front == 0;
     }
-  if (best.empty()) return counts.verdict();
+  if (best.empty()) return verdict(faults, pairs);
   return best;
 }
 

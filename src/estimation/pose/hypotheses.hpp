@@ -17,15 +17,16 @@ struct Hypothesis {
 constexpr int kMaxHypotheses = 12;
 using Hypotheses = boost::container::static_vector<Hypothesis, kMaxHypotheses>;
 
-/// Variance of the direction that the tilt adds to each bearing, where it counts as the bearing's own.
-Eigen::Matrix2d tilt_covariance(const BearingFit& model);
-
 /// Whether both are one pose, found twice: within 0.3 m and 0.1 rad.
 bool same_pose(const LevelledPose& a, const LevelledPose& b);
 
 /// The closed form's roots that pass the projection test, for the pair that fixes yaw about best. Unscored; empty where
 /// that pair has none.
 Hypotheses hypotheses_of_widest_pair(const BearingFit& model);
+
+/// The roots of two beacons that pass the projection test, or why there is none.
+using Roots = boost::container::static_vector<TwoBeaconRoot, 2>;
+Result<Roots, NoFix> roots_in_front(const BearingFit& two_beacons);
 
 /// The closed form's roots for all pairs, the best that differ, best score first, or why no pair has one. Scores count
 /// the tilt's error, common to all bearings, as noise of each.

@@ -33,8 +33,8 @@ bool finite_transform(const RigidTransform& T) {
 }
 
 bool valid(const BeaconBearing& b) {
-  return b.position_map.allFinite() && b.covariance.allFinite() && b.position_sigma_m >= 0 &&
-         std::isfinite(b.position_sigma_m) && std::abs(b.direction_camera.squaredNorm() - 1) <= 2e-6;
+  const double sum = b.position_map.sum() + b.covariance.sum() + b.position_sigma_m;  // finite if all are
+  return std::isfinite(sum) && b.position_sigma_m >= 0 && std::abs(b.direction_camera.squaredNorm() - 1) <= 2e-6;
 }
 
 bool valid(const BeaconBearings& bearings, const Tilt& tilt, const RigidTransform& T_base_camera) {
@@ -64,11 +64,11 @@ void insert(Candidates& sorted, Candidate&& candidate) {
 
 /// The bearings that a hypothesis, straight from the closed form, agrees with.
 Selection agreeing(const BearingFit& model, const LevelledPose& pose, double gate_chi2) {
-  const Eigen::Matrix2d tilt = tilt_covariance(model);
+  const BearingFit::Covariance2 tilt = model.tilt_covariance();
   Selection agrees(model.size());
   for (int i = 0; i < model.size(); ++i) {
     const BearingFit::Residual r = model.residual(i, pose);
-    agrees[i] = r.in_front && r.chi2(tilt) < gate_chi2;
+    agrees[i] = r.in_front() && r.chi2(tilt) < gate_chi2;
   }
   return agrees;
 }
@@ -154,25 +154,20 @@ PoseSolver::PoseSolver(const PoseSolverParams& params)
 PoseSolver::Candidate PoseSolver::refine(const BearingFit& model, const LevelledPose& start, const Selection& selection,
                                          int rounds) const {
   Candidate candidate;
-  candidate.fit.pose = start;
   candidate.agrees = selection;
   for (int round = 0; round < rounds; ++round) {
-    candidate.fit = model.fit(candidate.fit.pose, candidate.agrees, params_.gravity);
+    candidate.fit = model.fit(round == 0 ? start : candidate.fit.pose, candidate.agrees, params_.gravity);
     candidate.count = 0;
     candidate.residual2_rad2 = 0;
     if (!candidate.fit.regular) break;
     const Selection took_part = candidate.agrees;
     for (int i = 0; i < model.size(); ++i) {
-      const BearingFit::Residual r = model.residual(i, candidate.fit.pose);
-      Eigen::Matrix2d extra = Eigen::Matrix2d::Zero();
-      if (!took_part[i]) {
-        const Eigen::Matrix<double, 2, 6> J = model.jacobian(i, r);
-        extra = J * candidate.fit.covariance * J.transpose();
-      }
-      candidate.agrees[i] = r.in_front && r.chi2(extra) < gate_chi2_;
+      const BearingFit::Residual r = model.residual(i, candidate.fit.explained);
+      const double chi2 = took_part[i] ? r.chi2() : r.chi2(model.innovation(i, r, candidate.fit.covariance));
+      candidate.agrees[i] = r.in_front() && chi2 < gate_chi2_;
       if (!candidate.agrees[i]) continue;
       ++candidate.count;
-      candidate.residual2_rad2 += r.value_rad.squaredNorm();
+      candidate.residual2_rad2 += r.x_rad * r.x_rad + r.y_rad * r.y_rad;
     }
     if (candidate.agrees == took_part || candidate.count < 2) break;
   }
@@ -213,16 +208,15 @@ Result<PoseSolver::Candidates, NoFix> PoseSolver::voted(const BearingFit& model)
 }
 
 Result<PoseSolver::Candidates, NoFix> PoseSolver::roots_of_two(const BearingFit& model) const {
-  const auto proposed = hypotheses_of_all_pairs(model, gate_chi2_);
-  if (!proposed) return proposed.error();
+  const auto roots = roots_in_front(model);
+  if (!roots) return roots.error();
   Candidates found;
-  for (const Hypothesis& hypothesis : *proposed) {
+  for (const TwoBeaconRoot& root : *roots) {
     Candidate candidate;
-    candidate.fit = model.at(hypothesis.pose, Gravity::kGiven);
+    candidate.fit = model.of_root(root);
     candidate.agrees = Selection(2, true);
     candidate.count = 2;
-    candidate.cost = candidate.fit.chi2;
-    if (candidate.fit.regular) insert(found, std::move(candidate));
+    if (candidate.fit.regular) found.push_back(std::move(candidate));
   }
   if (found.empty()) return NoFix::kDegenerate;
   return found;

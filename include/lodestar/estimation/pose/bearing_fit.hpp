@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <boost/container/small_vector.hpp>
 #include <vector>
 
@@ -35,8 +36,11 @@ using Selection = boost::container::small_vector<bool, 16>;
 /// Where a fit ended.
 struct PoseFit {
   LevelledPose pose;
+  /// Where the bearings would have it that may correct gravity: what they are to be judged by. The same as `pose`
+  /// unless gravity is given.
+  LevelledPose explained;
   PoseStepCovariance covariance = PoseStepCovariance::Zero();
-  double chi2 = 0;       ///< of the selected bearings and of gravity
+  double chi2 = 0;       ///< of the selected bearings and of gravity, at `explained`
   bool regular = false;  ///< the normal equations could be solved
 };
 
@@ -44,16 +48,33 @@ struct PoseFit {
 /// gravity (docs/math/closed_form.md, equations 10 to 15).
 class BearingFit {
  public:
-  /// How far a bearing is off, in the plane tangent to it.
-  struct Residual {
-    Eigen::Vector2d value_rad;
-    Eigen::Matrix2d covariance;  ///< bearing and survey
-    Eigen::Vector3d direction_level;
-    double range_m;
-    bool in_front;  ///< predicted on the side that it is seen on
+  /// A symmetric 2x2 matrix.
+  struct Covariance2 {
+    double xx, xy, yy;
 
-    /// Squared distance, with `extra` added to the covariance.
-    double chi2(const Eigen::Matrix2d& extra = Eigen::Matrix2d::Zero()) const;
+    double determinant() const { return xx * yy - xy * xy; }
+    Covariance2 inverse() const {
+      const double per_det = 1 / determinant();
+      return {yy * per_det, -xy * per_det, xx * per_det};
+    }
+    /// v^T M v
+    double of(double x, double y) const { return xx * x * x + 2 * xy * x * y + yy * y * y; }
+  };
+
+  /// How far a bearing is off: where the plane tangent to it at unit distance is met on the way to the beacon.
+  struct Residual {
+    double x_rad, y_rad;
+    Covariance2 covariance;     ///< bearing and survey
+    Eigen::Vector3d arm_level;  ///< m, from the camera to the beacon
+    double per_depth;           ///< 1/m, of the arm along the bearing
+
+    /// Predicted on the side that it is seen on.
+    bool in_front() const { return per_depth > 0; }
+    /// Squared distance; `extra` is added to the covariance.
+    double chi2(const Covariance2& extra = {0, 0, 0}) const {
+      const Covariance2 S{covariance.xx + extra.xx, covariance.xy + extra.xy, covariance.yy + extra.yy};
+      return S.inverse().of(x_rad, y_rad);
+    }
   };
 
   /// @param R_level_camera camera_optical_frame into levelled axes, by gravity and mount as given
@@ -65,37 +86,61 @@ class BearingFit {
 
   int size() const { return static_cast<int>(rays_.size()); }
 
-  LevelledBearing bearing(int i) const { return {rays_[i].beacon_map, rays_[i].direction_level}; }
+  const LevelledBearing& bearing(int i) const { return rays_[i].bearing; }
   /// Variance of the direction, both axes together, rad^2.
-  double bearing_variance(int i) const { return rays_[i].covariance.trace(); }
+  double bearing_variance(int i) const { return rays_[i].covariance.xx + rays_[i].covariance.yy; }
   double survey_variance_m2(int i) const { return rays_[i].survey_variance_m2; }
-  double tilt_variance() const { return tilt_variance_; }
+  /// What the tilt's error adds to each bearing, where it counts as the bearing's own.
+  Covariance2 tilt_covariance() const { return {tilt_variance_, 0, tilt_variance_}; }
 
-  Residual residual(int i, const LevelledPose& pose) const;
-  Eigen::Matrix<double, 2, 6> jacobian(int i, const Residual& residual) const;
+  Residual residual(int i, const LevelledPose& pose) const {
+    // By components: a vector written by element and read as a pair stalls the processor, and this runs most.
+    const Ray& ray = rays_[i];
+    const Eigen::Matrix3d& R = pose.R_map_level;
+    const double x = ray.bearing.beacon_map.x() - pose.camera_map.x();
+    const double y = ray.bearing.beacon_map.y() - pose.camera_map.y();
+    const double z = ray.bearing.beacon_map.z() - pose.camera_map.z();
+    const double u = R(0, 0) * x + R(1, 0) * y + R(2, 0) * z;
+    const double v = R(0, 1) * x + R(1, 1) * y + R(2, 1) * z;
+    const double w = R(0, 2) * x + R(1, 2) * y + R(2, 2) * z;
+    const auto along = [&](const Eigen::Vector3d& axis) { return axis.x() * u + axis.y() * v + axis.z() * w; };
+    Residual out;
+    out.arm_level << u, v, w;
+    out.per_depth = 1 / along(ray.bearing.direction_level);
+    out.x_rad = out.per_depth * along(ray.x_level);
+    out.y_rad = out.per_depth * along(ray.y_level);
+    const double survey = ray.survey_variance_m2 * out.per_depth * out.per_depth;
+    out.covariance = {ray.covariance.xx + survey, ray.covariance.xy, ray.covariance.yy + survey};
+    return out;
+  }
+  /// What a step of covariance P adds to the covariance of a bearing's residual.
+  Covariance2 innovation(int i, const Residual& residual, const PoseStepCovariance& P) const;
 
-  /// The covariance at a pose that leaves no residual, such as a root of two bearings.
-  PoseFit at(const LevelledPose& exact, Gravity gravity) const;
+  /// Two bearings' root with its covariance J^-1 R J^-T, gravity's error carried in R; irregular at a double root.
+  PoseFit of_root(const TwoBeaconRoot& root) const;
 
   /// Gauss-Newton from `start`, over the selected bearings.
   PoseFit fit(const LevelledPose& start, const Selection& selection, Gravity gravity) const;
 
  private:
   struct Ray {
-    Eigen::Vector3d beacon_map, direction_level;
-    Eigen::Matrix<double, 2, 3> tangent_level;
-    Eigen::Matrix2d covariance;
+    LevelledBearing bearing;
+    Eigen::Vector3d x_level, y_level;  ///< right-handed with the bearing
+    Covariance2 covariance;
     double survey_variance_m2;
   };
+  struct Rows;
   struct Normal {
     PoseStepCovariance A = PoseStepCovariance::Zero();
     PoseStep g = PoseStep::Zero();
     double chi2 = 0;
+
+    void add(const Rows& rows);
   };
   struct Solution;
-  void add(int i, const LevelledPose& pose, Normal& normal) const;
+  void set_rows(int i, const Residual& residual, Rows& out) const;
   void add_gravity(const LevelledPose& pose, Normal& normal) const;
-  Normal normal_equations(const LevelledPose& pose, const Selection& selection, Gravity gravity) const;
+  Normal normal_equations(const LevelledPose& pose, const Selection& selection) const;
   Solution solve(const Normal& normal, Gravity gravity) const;
 
   boost::container::small_vector<Ray, 16> rays_;
