@@ -247,7 +247,7 @@ void print_two_beacon_times() {
       for (const Trial& trial : set) {
         const BearingFit fit(trial.seen.bearings.bearings, I, 1e-6);
         const auto roots = two_beacon_roots(fit.bearing(0), fit.bearing(1));
-        if (roots) sum += fit.at(LevelledPose::of((*roots)[1]), Gravity::kGiven).covariance(0, 0);
+        if (roots) sum += fit.of_root((*roots)[1], 0, 1).covariance(0, 0);
       }
     const auto end = std::chrono::steady_clock::now();
     sink = sink + sum;

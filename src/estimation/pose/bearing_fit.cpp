@@ -175,14 +175,15 @@ BearingFit::Solution BearingFit::solve(const Normal& normal, Gravity gravity) co
   return out;
 }
 
-PoseFit BearingFit::of_root(const TwoBeaconRoot& root) const {
+PoseFit BearingFit::of_root(const TwoBeaconRoot& root, int first, int second) const {
   PoseFit out;
   out.pose = out.explained = LevelledPose::of(root);
   Rows rows[2];
   Eigen::Matrix4d J;
   Eigen::Matrix<double, 4, 2> J_tilt;
   for (int i = 0; i < 2; ++i) {
-    set_rows(i, residual(i, out.pose), rows[i]);
+    const int ray = i == 0 ? first : second;
+    set_rows(ray, residual(ray, out.pose), rows[i]);
     for (int k = 0; k < 2; ++k) {
       for (int column = 0; column < 4; ++column) J(2 * i + k, column) = rows[i].J[k](column);
       for (int column = 0; column < 2; ++column) J_tilt(2 * i + k, column) = rows[i].J[k](kTilt + column);

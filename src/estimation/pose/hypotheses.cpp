@@ -24,12 +24,17 @@ bool stacked(const BearingFit& model, int i, int j) {
   return d.head<2>().squaredNorm() <= kSigmas2 * variance_m2 + kRounding2;
 }
 
-double score(const BearingFit& model, const LevelledPose& pose, double gate_chi2) {
-  const BearingFit::Covariance2 tilt = model.tilt_covariance();
+double score(const BearingFit& model, const PoseFit& fit, int first, int second, double gate_chi2) {
   double sum = 0;
   for (int i = 0; i < model.size(); ++i) {
-    const BearingFit::Residual r = model.residual(i, pose);
-    sum += r.in_front() ? std::min(gate_chi2, r.chi2(tilt)) : gate_chi2;
+    if (i == first || i == second) continue;
+    const BearingFit::Residual r = model.residual(i, fit.pose);
+    const BearingFit::Covariance2 extra = model.innovation(i, r, fit.covariance);
+    const double chi2 = r.chi2(extra);
+    const bool near = r.in_front() && chi2 < gate_chi2;
+    sum +=
+        near ? std::min(gate_chi2, chi2 + std::log(r.covariance.plus(extra).determinant() / r.covariance.determinant()))
+             : gate_chi2;
   }
   return sum;
 }
@@ -62,7 +67,7 @@ int sharpest_with(const BearingFit& model, int first) {
 /// Keeps the best that differ, in order.
 void keep(Hypotheses& best, const Hypothesis& candidate) {
   for (auto known = best.begin(); known != best.end(); ++known) {
-    if (!same_pose(known->pose, candidate.pose)) continue;
+    if (!same_pose(known->fit.pose, candidate.fit.pose)) continue;
     if (known->score <= candidate.score) return;
     best.erase(known);
     break;
@@ -107,13 +112,13 @@ bool same_pose(const LevelledPose& a, const LevelledPose& b) {
 
 Result<Roots, NoFix> roots_in_front(const BearingFit& two_beacons) { return roots_of(two_beacons, 0, 1); }
 
-Hypotheses hypotheses_of_widest_pair(const BearingFit& model) {
-  Hypotheses found;
+Starts starts_of_sharpest_pair(const BearingFit& model) {
+  Starts found;
   int first = 0, second = sharpest_with(model, first);
   if (second < 0) return found;
   first = sharpest_with(model, second);
   if (const auto roots = roots_of(model, first, second))
-    for (const TwoBeaconRoot& root : *roots) found.push_back({LevelledPose::of(root), 0});
+    for (const TwoBeaconRoot& root : *roots) found.push_back(LevelledPose::of(root));
   return found;
 }
 
@@ -130,8 +135,8 @@ Result<Hypotheses, NoFix> hypotheses_of_all_pairs(const BearingFit& model, doubl
         continue;
       }
       for (const TwoBeaconRoot& root : *roots) {
-        const LevelledPose pose = LevelledPose::of(root);
-        keep(best, {pose, score(model, pose, gate_chi2)});
+        const PoseFit fit = model.of_root(root, i, j);
+        if (fit.regular) keep(best, {fit, score(model, fit, i, j, gate_chi2)});
       }
     }
   if (best.empty()) return verdict(faults, pairs);

@@ -63,12 +63,11 @@ void insert(Candidates& sorted, Candidate&& candidate) {
 }
 
 /// The bearings that a hypothesis, straight from the closed form, agrees with.
-Selection agreeing(const BearingFit& model, const LevelledPose& pose, double gate_chi2) {
-  const BearingFit::Covariance2 tilt = model.tilt_covariance();
+Selection agreeing(const BearingFit& model, const PoseFit& fit, double gate_chi2) {
   Selection agrees(model.size());
   for (int i = 0; i < model.size(); ++i) {
-    const BearingFit::Residual r = model.residual(i, pose);
-    agrees[i] = r.in_front() && r.chi2(tilt) < gate_chi2;
+    const BearingFit::Residual r = model.residual(i, fit.pose);
+    agrees[i] = r.in_front() && r.chi2(model.innovation(i, r, fit.covariance)) < gate_chi2;
   }
   return agrees;
 }
@@ -179,8 +178,8 @@ PoseSolver::Candidate PoseSolver::refine(const BearingFit& model, const Levelled
 /// any other pose leaves a bearing out, and there is nothing to vote on. Empty otherwise.
 PoseSolver::Candidates PoseSolver::unquestioned(const BearingFit& model) const {
   Candidates found;
-  for (const Hypothesis& hypothesis : hypotheses_of_widest_pair(model)) {
-    Candidate candidate = refine(model, hypothesis.pose, Selection(model.size(), true), 1);
+  for (const LevelledPose& start : starts_of_sharpest_pair(model)) {
+    Candidate candidate = refine(model, start, Selection(model.size(), true), 1);
     const bool ordinary = candidate.fit.chi2 < ordinary_chi2(degrees_of_freedom(model.size()));
     if (candidate.fit.regular && candidate.count == model.size() && ordinary) insert(found, std::move(candidate));
   }
@@ -193,16 +192,19 @@ Result<PoseSolver::Candidates, NoFix> PoseSolver::voted(const BearingFit& model)
   if (!proposed) return proposed.error();
   Candidates found;
   for (const Hypothesis& hypothesis : *proposed) {
-    const auto same = [&](const Candidate& known) { return same_pose(known.fit.pose, hypothesis.pose); };
+    const auto same = [&](const Candidate& known) { return same_pose(known.fit.pose, hypothesis.fit.pose); };
     if (std::any_of(found.begin(), found.end(), same)) continue;
-    const Selection selection = agreeing(model, hypothesis.pose, gate_chi2_);
+    const Selection selection = agreeing(model, hypothesis.fit, gate_chi2_);
     if (std::count(selection.begin(), selection.end(), true) < 2) continue;
-    Candidate candidate = refine(model, hypothesis.pose, selection, kMaxRounds);
+    Candidate candidate = refine(model, hypothesis.fit.pose, selection, kMaxRounds);
     if (candidate.count < 2) continue;
     const auto again = [&](const Candidate& known) { return same_pose(known.fit.pose, candidate.fit.pose); };
     if (std::any_of(found.begin(), found.end(), again)) continue;
+    if (found.size() == found.capacity()) {
+      if (found.back().cost <= candidate.cost) continue;
+      found.pop_back();
+    }
     insert(found, std::move(candidate));
-    if (found.size() == found.capacity()) break;
   }
   return found;
 }
@@ -213,7 +215,7 @@ Result<PoseSolver::Candidates, NoFix> PoseSolver::roots_of_two(const BearingFit&
   Candidates found;
   for (const TwoBeaconRoot& root : *roots) {
     Candidate candidate;
-    candidate.fit = model.of_root(root);
+    candidate.fit = model.of_root(root, 0, 1);
     candidate.agrees = Selection(2, true);
     candidate.count = 2;
     if (candidate.fit.regular) found.push_back(std::move(candidate));

@@ -52,6 +52,7 @@ class BearingFit {
   struct Covariance2 {
     double xx, xy, yy;
 
+    Covariance2 plus(const Covariance2& other) const { return {xx + other.xx, xy + other.xy, yy + other.yy}; }
     double determinant() const { return xx * yy - xy * xy; }
     Covariance2 inverse() const {
       const double per_det = 1 / determinant();
@@ -72,8 +73,7 @@ class BearingFit {
     bool in_front() const { return per_depth > 0; }
     /// Squared distance; `extra` is added to the covariance.
     double chi2(const Covariance2& extra = {0, 0, 0}) const {
-      const Covariance2 S{covariance.xx + extra.xx, covariance.xy + extra.xy, covariance.yy + extra.yy};
-      return S.inverse().of(x_rad, y_rad);
+      return covariance.plus(extra).inverse().of(x_rad, y_rad);
     }
   };
 
@@ -90,8 +90,6 @@ class BearingFit {
   /// Variance of the direction, both axes together, rad^2.
   double bearing_variance(int i) const { return rays_[i].covariance.xx + rays_[i].covariance.yy; }
   double survey_variance_m2(int i) const { return rays_[i].survey_variance_m2; }
-  /// What the tilt's error adds to each bearing, where it counts as the bearing's own.
-  Covariance2 tilt_covariance() const { return {tilt_variance_, 0, tilt_variance_}; }
 
   Residual residual(int i, const LevelledPose& pose) const {
     // By components: a vector written by element and read as a pair stalls the processor, and this runs most.
@@ -116,8 +114,9 @@ class BearingFit {
   /// What a step of covariance P adds to the covariance of a bearing's residual.
   Covariance2 innovation(int i, const Residual& residual, const PoseStepCovariance& P) const;
 
-  /// Two bearings' root with its covariance J^-1 R J^-T, gravity's error carried in R; irregular at a double root.
-  PoseFit of_root(const TwoBeaconRoot& root) const;
+  /// A root of bearings i and j with its covariance J^-1 R J^-T, gravity's error carried in R; irregular at a double
+  /// root.
+  PoseFit of_root(const TwoBeaconRoot& root, int i, int j) const;
 
   /// Gauss-Newton from `start`, over the selected bearings.
   PoseFit fit(const LevelledPose& start, const Selection& selection, Gravity gravity) const;
