@@ -23,7 +23,7 @@ struct PoseSolver::Candidate {
 
 namespace {
 
-constexpr int kMaxRounds = 5;
+constexpr int kMaxRounds = 8;
 constexpr double kLeastSigma_rad = 1e-6;  ///< keeps a tilt or mount that claims to be exact solvable
 
 double square(double x) { return x * x; }
@@ -149,26 +149,40 @@ PoseSolver::PoseSolver(const PoseSolverParams& params)
       gate_chi2_(chi_square_quantile(params.inlier_probability, 2)),
       prior_gate_chi2_(chi_square_quantile(params.inlier_probability, 4)) {}
 
-/// Fits, and fits anew to what agrees: of those that took part by their residual, of the others by their innovation.
+/// Fits, and fits anew without the bearing that disagrees most, one at a time, for a lie pulls the others off with it;
+/// then with those that had no part and agree. Those in the fit are judged by their residual, others by their
+/// innovation.
 PoseSolver::Candidate PoseSolver::refine(const BearingFit& model, const LevelledPose& start, const Selection& selection,
                                          int rounds) const {
   Candidate candidate;
-  candidate.agrees = selection;
+  Selection part = selection;
   for (int round = 0; round < rounds; ++round) {
-    candidate.fit = model.fit(round == 0 ? start : candidate.fit.pose, candidate.agrees, params_.gravity);
+    candidate.fit = model.fit(round == 0 ? start : candidate.fit.pose, part, params_.gravity);
+    candidate.agrees.assign(part.size(), false);
     candidate.count = 0;
     candidate.residual2_rad2 = 0;
     if (!candidate.fit.regular) break;
-    const Selection took_part = candidate.agrees;
+    int worst = -1;
+    double most = 0;
     for (int i = 0; i < model.size(); ++i) {
       const BearingFit::Residual r = model.residual(i, candidate.fit.explained);
-      const double chi2 = took_part[i] ? r.chi2() : r.chi2(model.innovation(i, r, candidate.fit.covariance));
+      const double chi2 = part[i] ? r.chi2() : r.chi2(model.innovation(i, r, candidate.fit.covariance));
       candidate.agrees[i] = r.in_front() && chi2 < gate_chi2_;
-      if (!candidate.agrees[i]) continue;
-      ++candidate.count;
-      candidate.residual2_rad2 += r.x_rad * r.x_rad + r.y_rad * r.y_rad;
+      if (candidate.agrees[i]) {
+        ++candidate.count;
+        candidate.residual2_rad2 += r.x_rad * r.x_rad + r.y_rad * r.y_rad;
+      } else if (part[i] && chi2 > most) {
+        most = chi2;
+        worst = i;
+      }
     }
-    if (candidate.agrees == took_part || candidate.count < 2) break;
+    if (candidate.agrees == part) break;
+    if (worst >= 0) {
+      part[worst] = false;
+    } else {
+      part = candidate.agrees;
+    }
+    if (std::count(part.begin(), part.end(), true) < 2) break;
   }
   candidate.cost = candidate.fit.chi2 + (model.size() - candidate.count) * gate_chi2_;
   return candidate;
