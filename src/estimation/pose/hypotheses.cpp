@@ -31,7 +31,7 @@ double score(const BearingFit& model, const PoseFit& fit, int first, int second,
     const BearingFit::Residual r = model.residual(i, fit.pose);
     const BearingFit::Covariance2 extra = model.innovation(i, r, fit.covariance);
     const double chi2 = r.chi2(extra);
-    const bool near = r.in_front() && chi2 < gate_chi2;
+    const bool near = r.near() && chi2 < gate_chi2;
     sum +=
         near ? std::min(gate_chi2, chi2 + std::log(r.covariance.plus(extra).determinant() / r.covariance.determinant()))
              : gate_chi2;

@@ -67,10 +67,13 @@ Selection agreeing(const BearingFit& model, const PoseFit& fit, double gate_chi2
   Selection agrees(model.size());
   for (int i = 0; i < model.size(); ++i) {
     const BearingFit::Residual r = model.residual(i, fit.pose);
-    agrees[i] = r.in_front() && r.chi2(model.innovation(i, r, fit.covariance)) < gate_chi2;
+    agrees[i] = r.near() && r.chi2(model.innovation(i, r, fit.covariance)) < gate_chi2;
   }
   return agrees;
 }
+
+/// Whether so many that agree may speak for all: a majority, and of three and more at least three.
+bool quorum(int count, int of) { return count >= std::min(of, 3) && 2 * count > of; }
 
 int degrees_of_freedom(int bearings) { return std::max(1, 2 * bearings - 4); }
 
@@ -167,7 +170,7 @@ PoseSolver::Candidate PoseSolver::refine(const BearingFit& model, const Levelled
     for (int i = 0; i < model.size(); ++i) {
       const BearingFit::Residual r = model.residual(i, candidate.fit.explained);
       const double chi2 = part[i] ? r.chi2() : r.chi2(model.innovation(i, r, candidate.fit.covariance));
-      candidate.agrees[i] = r.in_front() && chi2 < gate_chi2_;
+      candidate.agrees[i] = r.near() && chi2 < gate_chi2_;
       if (candidate.agrees[i]) {
         ++candidate.count;
         candidate.residual2_rad2 += r.x_rad * r.x_rad + r.y_rad * r.y_rad;
@@ -260,7 +263,7 @@ bool PoseSolver::on_floor(const PoseEstimate& pose) const {
 std::optional<NoFix> PoseSolver::fault_of(const BearingFit& model, const Candidates& sorted) const {
   if (sorted.empty()) return NoFix::kResidual;
   const Candidate& best = sorted.front();
-  if (best.count < std::min(model.size(), 3) || 2 * best.count <= model.size()) return NoFix::kResidual;
+  if (!quorum(best.count, model.size())) return NoFix::kResidual;
   if (best.fit.chi2 > params_.max_residual_chi2_per_dof * degrees_of_freedom(best.count)) return NoFix::kResidual;
   if (!best.fit.regular) return NoFix::kDegenerate;
   return std::nullopt;
@@ -291,7 +294,8 @@ Result<PoseSolutions, NoFix> PoseSolver::solutions(const BeaconBearings& bearing
 
   PoseSolutions out;
   for (const Candidate& candidate : *found) {
-    if (!candidate.fit.regular || !(candidate.cost < found->front().cost + params_.margin_chi2)) continue;
+    if (!candidate.fit.regular || !quorum(candidate.count, model.size())) continue;
+    if (!(candidate.cost < found->front().cost + params_.margin_chi2)) continue;
     out.push_back({fix(candidate, mount, bearings), candidate.fit.chi2});
     if (!on_floor(out.back().fix)) out.pop_back();
   }

@@ -69,8 +69,8 @@ class BearingFit {
     Eigen::Vector3d arm_level;  ///< m, from the camera to the beacon
     double per_depth;           ///< 1/m, of the arm along the bearing
 
-    /// Predicted on the side that it is seen on.
-    bool in_front() const { return per_depth > 0; }
+    /// Within 27 deg of where it is seen. Further off the residual, a tangent, says nothing of how far.
+    bool near() const { return per_depth > 0 && x_rad * x_rad + y_rad * y_rad < 0.25; }
     /// Squared distance; `extra` is added to the covariance.
     double chi2(const Covariance2& extra = {0, 0, 0}) const {
       return covariance.plus(extra).inverse().of(x_rad, y_rad);
