@@ -65,6 +65,24 @@ Solver lodestar_solver(const std::string& name, Gravity gravity) {
           }};
 }
 
+/// What the others' time covers: bearings in, pose out (here with covariance), nothing checked. Starts at the first
+/// root of the first two.
+Solver bare_fit() {
+  return {
+      "Lodestar, fit alone", 3, [](const Seen& seen) -> std::optional<Answer> {
+        const BearingFit model(seen.bearings.bearings, rotation({seen.tilt.roll_rad, seen.tilt.pitch_rad, 0}), 1e-6);
+        const auto roots = two_beacon_roots(model.bearing(0), model.bearing(1));
+        if (!roots) return std::nullopt;
+        const PoseFit fit = model.fit(LevelledPose::of((*roots)[(*roots)[0].in_front() ? 0 : 1]),
+                                      Selection(seen.pixels.size(), true), Gravity::kPrior);
+        Answer answer;
+        answer.T_map_camera.linear() = fit.pose.R_map_level;
+        answer.T_map_camera.translation() = fit.pose.camera_map;
+        answer.covariance = fit.covariance.topLeftCorner<4, 4>();
+        return answer;
+      }};
+}
+
 Solver opencv_solver(const std::string& name, int flags) {
   return {name, 4, [flags](const Seen& seen) -> std::optional<Answer> {
             std::vector<cv::Point3d> points;
@@ -279,7 +297,9 @@ void print_times() {
     for (const int beacons : {2, 4, 8, 16}) {
       const auto set = trials(500, beacons, mixed, 0.1, 0);
       double reference = 0;
-      for (const Solver& solver : all_solvers()) {
+      auto solvers = all_solvers();
+      solvers.insert(solvers.begin() + 2, bare_fit());
+      for (const Solver& solver : solvers) {
         if (beacons < solver.fewest) continue;
         const double us = 1e-3 * time_ns(solver, set);
         if (reference == 0) reference = us;
