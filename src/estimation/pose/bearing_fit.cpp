@@ -1,147 +1,237 @@
-#include "bearing_fit.hpp"
+#include "lodestar/estimation/pose/bearing_fit.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "lodestar/base/common/angle.hpp"
-
 namespace lodestar {
 namespace {
 
-constexpr double kLeastSigma_rad = 1e-6;  ///< keeps a tilt or mount that claims to be exact solvable
+constexpr double kConverged_chi2 = 1e-10;
+/// A step may raise chi2 by so much: the survey's weights change a little with the ranges.
+constexpr double kHarmless_chi2 = 0.1;
+constexpr int kMaxIterations = 20, kMaxHalvings = 8;
 
-Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& direction) {
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = direction.unitOrthogonal();
-  basis.col(1) = direction.cross(basis.col(0));
-  return basis;
+/// Two unit vectors that make a right-handed frame with a third: Duff et al., "Building an orthonormal basis,
+/// revisited", JCGT 2017.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents(const Eigen::Vector3d& n) {
+  const double sign = std::copysign(1.0, n.z()), a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
+  return {{1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}};
+}
+
+Eigen::Matrix2d inverse(const Eigen::Matrix2d& S) {
+  const double per_det = 1 / (S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0));
+  Eigen::Matrix2d out;
+  out << S(1, 1) * per_det, -S(0, 1) * per_det, -S(1, 0) * per_det, S(0, 0) * per_det;
+  return out;
+}
+
+/// What gravity and R_map_level disagree in, about the levelled x and y axes.
+Eigen::Vector2d tilt_rad(const Eigen::Matrix3d& R_map_level) { return {R_map_level(2, 1), -R_map_level(2, 0)}; }
+
+/// What a further step would gain after one that gained gain_chi2: the square of how far the model bends over the step
+/// (a metre is at least as near as a beacon), and what the residuals, milliradians, add to the model's slope.
+double next_gain_chi2(double gain_chi2, const PoseStep& step) { return gain_chi2 * (10 * step.squaredNorm() + 1e-5); }
+
+LevelledPose moved(const LevelledPose& pose, const PoseStep& step) {
+  const Eigen::Quaterniond turn(1, 0.5 * step(kTilt), 0.5 * step(kTilt + 1), 0.5 * step(kYaw));
+  return {pose.camera_map + pose.R_map_level * step.head<3>(), pose.R_map_level * turn.normalized().toRotationMatrix()};
 }
 
 }  // namespace
 
-void PoseUnknowns::add(const Vector& step) {
-  base_map += step.head<3>();
-  yaw_rad = wrap_angle(yaw_rad + step(3));
-  tilt_rad += step.segment<2>(4);
-  mount_rad += step.tail<3>();
+LevelledPose LevelledPose::of(const TwoBeaconRoot& root) {
+  LevelledPose pose;
+  pose.camera_map = root.camera_map;
+  pose.R_map_level << root.yaw_cos, -root.yaw_sin, 0, root.yaw_sin, root.yaw_cos, 0, 0, 0, 1;
+  return pose;
 }
 
-BearingFit::BearingFit(const std::vector<BeaconBearing>& bearings, const Tilt& tilt,
-                       const RigidTransform& T_base_camera, double mount_sigma_rad)
-    : R_level_base_(rotation({tilt.roll_rad, tilt.pitch_rad, 0})),
-      camera_base_(T_base_camera.translation()),
-      tilt_variance_(std::pow(std::max(tilt.sigma_rad, kLeastSigma_rad), 2)),
-      mount_variance_(std::pow(std::max(mount_sigma_rad, kLeastSigma_rad), 2)) {
-  rays_.reserve(bearings.size());
-  const Eigen::Matrix3d R_base_camera = T_base_camera.linear();
-  for (const BeaconBearing& bearing : bearings) {
-    Ray ray;
-    ray.beacon_map = bearing.position_map;
-    ray.direction_base = (R_base_camera * bearing.direction_camera).normalized();
-    ray.tangent_base = tangent_basis(ray.direction_base);
-    const Eigen::Matrix<double, 3, 2> tangent_camera = R_base_camera.transpose() * ray.tangent_base;
-    ray.covariance = tangent_camera.transpose() * bearing.covariance * tangent_camera;
+BearingFit::BearingFit(const std::vector<BeaconBearing>& bearings, const Eigen::Matrix3d& R_level_camera,
+                       double tilt_sigma_rad)
+    : rays_(bearings.size(), boost::container::default_init), tilt_variance_(tilt_sigma_rad * tilt_sigma_rad) {
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
+    const BeaconBearing& bearing = bearings[i];
+    const auto [x_camera, y_camera] = tangents(bearing.direction_camera);
+    const Eigen::Vector3d Cx = bearing.covariance * x_camera, Cy = bearing.covariance * y_camera;
+    Ray& ray = rays_[i];
+    ray.bearing.beacon_map = bearing.position_map;
+    ray.bearing.direction_level.noalias() = R_level_camera * bearing.direction_camera;
+    ray.x_level.noalias() = R_level_camera * x_camera;
+    ray.y_level.noalias() = R_level_camera * y_camera;
+    ray.covariance = {x_camera.dot(Cx), x_camera.dot(Cy), y_camera.dot(Cy)};
     ray.survey_variance_m2 = bearing.position_sigma_m * bearing.position_sigma_m;
-    rays_.push_back(ray);
   }
 }
 
-PoseUnknowns BearingFit::at_camera(const Eigen::Vector3d& camera_map, double yaw_rad) const {
-  PoseUnknowns unknowns;
-  unknowns.yaw_rad = yaw_rad;
-  unknowns.base_map = camera_map - rotation({0, 0, yaw_rad}) * R_level_base_ * camera_base_;
-  return unknowns;
+bool BearingFit::valid() const {
+  constexpr double kLeast = 1e-16;
+  return std::all_of(rays_.begin(), rays_.end(), [](const Ray& ray) {
+    const Covariance2 rest{ray.covariance.xx - kLeast, ray.covariance.xy, ray.covariance.yy - kLeast};
+    return rest.xx > 0 && rest.determinant() > 0;
+  });
 }
 
-RigidTransform BearingFit::T_map_base(const PoseUnknowns& unknowns) const {
-  const Eigen::Vector3d tilt(unknowns.tilt_rad.x(), unknowns.tilt_rad.y(), 0);
-  RigidTransform T = RigidTransform::Identity();
-  T.linear() = rotation({0, 0, unknowns.yaw_rad}) * so3_exp(tilt) * R_level_base_;
-  T.translation() = unknowns.base_map;
-  return T;
-}
+/// A bearing's part of the normal equations, before it is summed.
+struct BearingFit::Rows {
+  std::array<PoseStep, 2> J;
+  Covariance2 S;
+  double x_rad, y_rad;
+};
 
-BearingFit::Residual BearingFit::residual(int i, const PoseUnknowns& unknowns) const {
+void BearingFit::set_rows(int i, const Residual& r, Rows& out) const {
   const Ray& ray = rays_[i];
-  const Eigen::Matrix3d R_base_map = T_map_base(unknowns).linear().transpose();
-  const Eigen::Vector3d arm_map = ray.beacon_map - unknowns.base_map;
-  const Eigen::Vector3d seen = so3_exp(-unknowns.mount_rad) * (R_base_map * arm_map - camera_base_);
-  const double range = seen.norm();
-  const Eigen::Vector3d direction = seen / range;
-
-  // Equation 12, to first order in the errors of tilt and mount, which are milliradians.
-  const Eigen::Matrix3d J_seen_turn = R_base_map * skew(arm_map);
-  const Eigen::Matrix3d R_map_level = rotation({0, 0, unknowns.yaw_rad});
-  Eigen::Matrix<double, 3, PoseUnknowns::kSize> J_seen;
-  J_seen << -R_base_map, J_seen_turn.col(2), J_seen_turn * R_map_level.leftCols<2>(), skew(seen);
-  const Eigen::Matrix<double, 2, 3> J_value_seen =
-      (ray.tangent_base.transpose() - ray.tangent_base.transpose() * direction * direction.transpose()) / range;
-
-  Residual out;
-  out.value_rad = ray.tangent_base.transpose() * direction;
-  out.covariance = ray.covariance + ray.survey_variance_m2 / (range * range) * Eigen::Matrix2d::Identity();
-  out.J = J_value_seen * J_seen;
-  out.in_front = direction.dot(ray.direction_base) > 0;
-  return out;
+  const Eigen::Vector3d &m = ray.bearing.direction_level, &w = r.arm_level;
+  const auto set = [&](const Eigen::Vector3d& tangent, double value_rad, PoseStep& row) {
+    const double x = r.per_depth * (tangent.x() - value_rad * m.x());
+    const double y = r.per_depth * (tangent.y() - value_rad * m.y());
+    const double z = r.per_depth * (tangent.z() - value_rad * m.z());
+    row[0] = -x;
+    row[1] = -y;
+    row[2] = -z;
+    row[3] = x * w.y() - y * w.x();
+    row[4] = y * w.z() - z * w.y();
+    row[5] = z * w.x() - x * w.z();
+  };
+  set(ray.x_level, r.x_rad, out.J[0]);
+  set(ray.y_level, r.y_rad, out.J[1]);
+  out.S = r.covariance;
+  out.x_rad = r.x_rad;
+  out.y_rad = r.y_rad;
 }
 
-BearingFit::Normal BearingFit::normal_equations(const PoseUnknowns& unknowns, const Selection& selection) const {
+BearingFit::Covariance2 BearingFit::innovation(int i, const Residual& r, const PoseStepCovariance& P) const {
+  Rows rows;
+  set_rows(i, r, rows);
+  const PoseStep PJx = P * rows.J[0], PJy = P * rows.J[1];
+  return {rows.J[0].dot(PJx), rows.J[0].dot(PJy), rows.J[1].dot(PJy)};
+}
+
+void BearingFit::Normal::add(const Rows& r) {
+  const Covariance2 W = r.S.inverse();
+  const PoseStep WJx = W.xx * r.J[0] + W.xy * r.J[1], WJy = W.xy * r.J[0] + W.yy * r.J[1];
+  A.noalias() += WJx * r.J[0].transpose();
+  A.noalias() += WJy * r.J[1].transpose();
+  g += r.x_rad * WJx + r.y_rad * WJy;
+  chi2 += W.of(r.x_rad, r.y_rad);
+}
+
+void BearingFit::add_gravity(const LevelledPose& pose, Normal& normal) const {
+  const Eigen::Vector2d tilt = tilt_rad(pose.R_map_level);
+  normal.A.diagonal().tail<2>().array() += 1 / tilt_variance_;
+  normal.g.tail<2>() += tilt / tilt_variance_;
+  normal.chi2 += tilt.squaredNorm() / tilt_variance_;
+}
+
+BearingFit::Normal BearingFit::normal_equations(const LevelledPose& pose, const Selection& selection) const {
+  boost::container::small_vector<Rows, 16> all(size(), boost::container::default_init);
+  int count = 0;
+  for (int i = 0; i < size(); ++i)
+    if (selection[i]) set_rows(i, residual(i, pose), all[count++]);
   Normal normal;
-  normal.A.setZero();
-  normal.g.setZero();
-  normal.A.diagonal().segment<2>(4).setConstant(1 / tilt_variance_);
-  normal.A.diagonal().tail<3>().setConstant(1 / mount_variance_);
-  normal.g.segment<2>(4) = unknowns.tilt_rad / tilt_variance_;
-  normal.g.tail<3>() = unknowns.mount_rad / mount_variance_;
-  normal.chi2 = unknowns.tilt_rad.squaredNorm() / tilt_variance_ + unknowns.mount_rad.squaredNorm() / mount_variance_;
-  for (int i = 0; i < size(); ++i) {
-    if (!selection[i]) continue;
-    const Residual r = residual(i, unknowns);
-    const Eigen::Matrix2d W = r.covariance.inverse();
-    normal.A += r.J.transpose() * W * r.J;
-    normal.g += r.J.transpose() * W * r.value_rad;
-    normal.chi2 += r.value_rad.dot(W * r.value_rad);
-  }
+  for (int i = 0; i < count; ++i) normal.add(all[i]);
+  add_gravity(pose, normal);
   return normal;
 }
 
-PoseFit BearingFit::fit(const PoseUnknowns& start, const Selection& selection) const {
-  PoseFit out;
-  out.unknowns = start;
-  Normal normal = normal_equations(start, selection);
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const Eigen::LDLT<PoseUnknowns::Matrix> solver(normal.A);
-    if (solver.info() != Eigen::Success || !solver.isPositive()) return out;
-    PoseUnknowns::Vector step = -solver.solve(normal.g);
-    if (!step.allFinite()) return out;
-    const double size = step.dot(normal.A * step);
-    bool better = false;
-    for (int halving = 0; halving < 8 && !better; ++halving, step *= 0.5) {
-      PoseUnknowns next = out.unknowns;
-      next.add(step);
-      const Normal normal_next = normal_equations(next, selection);
-      better = normal_next.chi2 <= normal.chi2 + 1e-12;
-      if (!better) continue;
-      out.unknowns = next;
-      normal = normal_next;
-    }
-    if (!better || size < 1e-14) break;
+/// The normal equations solved by blocks: V for position and yaw with tilt held, K how they follow tilt, and tilt's own
+/// covariance, which is gravity's alone where gravity is given (equation 14).
+struct BearingFit::Solution {
+  Eigen::Matrix4d V;
+  Eigen::Matrix<double, 4, 2> K;
+  Eigen::Matrix2d tilt;
+  PoseStep step;       ///< to the answer
+  PoseStep explained;  ///< to what explains all: the same but where gravity is given
+  bool regular;
+
+  PoseStepCovariance covariance() const {
+    PoseStepCovariance P;
+    P.topRightCorner<4, 2>().noalias() = K * tilt;
+    P.topLeftCorner<4, 4>() = V;
+    P.topLeftCorner<4, 4>().noalias() += P.topRightCorner<4, 2>() * K.transpose();
+    P.bottomLeftCorner<2, 4>() = P.topRightCorner<4, 2>().transpose();
+    P.bottomRightCorner<2, 2>() = tilt;
+    return P;
   }
-  const Eigen::LDLT<PoseUnknowns::Matrix> solver(normal.A);
-  out.covariance = solver.solve(PoseUnknowns::Matrix::Identity());
-  out.chi2 = normal.chi2;
-  out.regular = solver.info() == Eigen::Success && solver.isPositive() && out.covariance.allFinite() &&
-                out.covariance.diagonal().minCoeff() > 0;
+};
+
+BearingFit::Solution BearingFit::solve(const Normal& normal, Gravity gravity) const {
+  Solution out;
+  out.V = normal.A.topLeftCorner<4, 4>().inverse();
+  out.K.noalias() = -out.V * normal.A.topRightCorner<4, 2>();
+  const Eigen::Matrix2d S = normal.A.bottomRightCorner<2, 2>() + normal.A.topRightCorner<4, 2>().transpose() * out.K;
+  out.tilt = inverse(S);
+  const Eigen::Vector4d tilt_held = -out.V * normal.g.head<4>();
+  const Eigen::Vector2d tilt_step = -out.tilt * (normal.g.tail<2>() + out.K.transpose() * normal.g.head<4>());
+  out.explained << tilt_held + out.K * tilt_step, tilt_step;
+  out.step = out.explained;
+  if (gravity == Gravity::kGiven) {
+    out.step << tilt_held, Eigen::Vector2d::Zero();
+    out.tilt = tilt_variance_ * Eigen::Matrix2d::Identity();
+  }
+  out.regular = out.V.diagonal().minCoeff() > 0 && out.tilt.diagonal().minCoeff() > 0 && out.V.allFinite() &&
+                out.explained.allFinite();
   return out;
 }
 
-Eigen::Matrix<double, 6, 6> BearingFit::pose_covariance(const PoseFit& fit) const {
-  Eigen::Matrix<double, 6, 6> G = Eigen::Matrix<double, 6, 6>::Identity();
-  G.block<3, 1>(3, 3) = Eigen::Vector3d::UnitZ();
-  G.block<3, 2>(3, 4) = rotation({0, 0, fit.unknowns.yaw_rad}).leftCols<2>();
-  return G * fit.covariance.topLeftCorner<6, 6>() * G.transpose();
+PoseFit BearingFit::of_root(const TwoBeaconRoot& root, int first, int second) const {
+  PoseFit out;
+  out.pose = out.explained = LevelledPose::of(root);
+  Rows rows[2];
+  Eigen::Matrix4d J;
+  Eigen::Matrix<double, 4, 2> J_tilt;
+  for (int i = 0; i < 2; ++i) {
+    const int ray = i == 0 ? first : second;
+    set_rows(ray, residual(ray, out.pose), rows[i]);
+    for (int k = 0; k < 2; ++k) {
+      for (int column = 0; column < 4; ++column) J(2 * i + k, column) = rows[i].J[k](column);
+      for (int column = 0; column < 2; ++column) J_tilt(2 * i + k, column) = rows[i].J[k](kTilt + column);
+    }
+  }
+  const Eigen::Matrix4d X = J.inverse();
+  const Eigen::Matrix<double, 4, 2> K = -X * J_tilt;
+  Eigen::Matrix4d XS;
+  for (int i = 0; i < 2; ++i) {
+    const Covariance2& S = rows[i].S;
+    XS.col(2 * i) = S.xx * X.col(2 * i) + S.xy * X.col(2 * i + 1);
+    XS.col(2 * i + 1) = S.xy * X.col(2 * i) + S.yy * X.col(2 * i + 1);
+  }
+  out.covariance.topRightCorner<4, 2>() = tilt_variance_ * K;
+  out.covariance.topLeftCorner<4, 4>().noalias() = XS * X.transpose();
+  out.covariance.topLeftCorner<4, 4>().noalias() += out.covariance.topRightCorner<4, 2>() * K.transpose();
+  out.covariance.bottomLeftCorner<2, 4>() = out.covariance.topRightCorner<4, 2>().transpose();
+  out.covariance.diagonal().tail<2>().setConstant(tilt_variance_);
+  out.regular = X.allFinite() && root.miss_m == 0;
+  return out;
+}
+
+PoseFit BearingFit::fit(const LevelledPose& start, const Selection& selection, Gravity gravity) const {
+  LevelledPose pose = start;
+  Normal normal = normal_equations(pose, selection);
+  Solution solution = solve(normal, gravity);
+  const auto ended = [&](const LevelledPose& at) -> PoseFit {
+    const double chi2 = normal.chi2 + normal.g.dot(solution.explained);
+    return {at, moved(pose, solution.explained), solution.covariance(), chi2, solution.regular};
+  };
+  for (int iteration = 0; iteration < kMaxIterations && solution.regular; ++iteration) {
+    const double gain_chi2 = -normal.g.dot(solution.step);
+    PoseStep step = solution.step;
+    LevelledPose next = moved(pose, step);
+    if (next_gain_chi2(gain_chi2, step) < kConverged_chi2) return ended(next);
+    Normal normal_next = normal_equations(next, selection);
+    const auto worse = [&] { return !(normal_next.chi2 <= normal.chi2 + kHarmless_chi2); };
+    for (int halving = 0; halving < kMaxHalvings && worse(); ++halving) {
+      step *= 0.5;
+      next = moved(pose, step);
+      normal_next = normal_equations(next, selection);
+    }
+    if (worse()) break;
+    pose = next;
+    normal = normal_next;
+    solution = solve(normal, gravity);
+  }
+  return ended(pose);
 }
 
 }  // namespace lodestar

@@ -1,6 +1,6 @@
 #include "hypotheses.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -9,71 +9,138 @@
 namespace lodestar {
 namespace {
 
-constexpr double kSigmas = 3;  ///< bearings or beacons closer than this many sigma count as one
+constexpr double kSigmas2 = 9;  ///< bearings or beacons closer than three sigma count as one
+constexpr double kRounding2 = 1e-12;
 
-bool same_bearing(const BeaconBearing& a, const BeaconBearing& b) {
-  const double variance = a.covariance.trace() + b.covariance.trace();
-  return a.direction_camera.cross(b.direction_camera).norm() <= kSigmas * std::sqrt(variance) + 1e-6;
+bool same_bearing(const BearingFit& model, int i, int j) {
+  const double variance = model.bearing_variance(i) + model.bearing_variance(j);
+  const Eigen::Vector3d n = model.bearing(i).direction_level.cross(model.bearing(j).direction_level);
+  return n.squaredNorm() <= kSigmas2 * variance + kRounding2;
 }
 
-bool stacked(const BeaconBearing& a, const BeaconBearing& b) {
-  const double sigma_m = std::hypot(a.position_sigma_m, b.position_sigma_m);
-  return (a.position_map - b.position_map).head<2>().norm() <= kSigmas * sigma_m + 1e-6;
+bool stacked(const BearingFit& model, int i, int j) {
+  const double variance_m2 = model.survey_variance_m2(i) + model.survey_variance_m2(j);
+  const Eigen::Vector3d d = model.bearing(i).beacon_map - model.bearing(j).beacon_map;
+  return d.head<2>().squaredNorm() <= kSigmas2 * variance_m2 + kRounding2;
 }
 
-double score(const BearingFit& model, const PoseUnknowns& unknowns, double gate_chi2) {
+double score(const BearingFit& model, const PoseFit& fit, int first, int second, double gate_chi2) {
   double sum = 0;
   for (int i = 0; i < model.size(); ++i) {
-    const BearingFit::Residual r = model.residual(i, unknowns);
-    const Eigen::Matrix2d S = r.covariance + model.attitude_variance() * Eigen::Matrix2d::Identity();
-    sum += r.in_front ? std::min(gate_chi2, r.value_rad.dot(S.inverse() * r.value_rad)) : gate_chi2;
+    if (i == first || i == second) continue;
+    const BearingFit::Residual r = model.residual(i, fit.pose);
+    const BearingFit::Covariance2 extra = model.innovation(i, r, fit.covariance);
+    const double chi2 = r.chi2(extra);
+    const bool near = r.near() && chi2 < gate_chi2;
+    sum +=
+        near ? std::min(gate_chi2, chi2 + std::log(r.covariance.plus(extra).determinant() / r.covariance.determinant()))
+             : gate_chi2;
   }
   return sum;
 }
 
-/// How many pairs failed, and of what.
-struct PairCounts {
-  int pairs = 0, same_bearing = 0, stacked = 0, without_root = 0, behind = 0;
+/// How steeply equation 4 crosses zero, for its noise: the inverse square of the yaw error a pair makes, but for a
+/// factor. Negative where it does not cross.
+double sharpness(const LevelledBearing& first, const LevelledBearing& second) {
+  const Eigen::Vector3d &u = first.direction_level, &v = second.direction_level;
+  const Eigen::Vector3d &p = first.beacon_map, &q = second.beacon_map;
+  const double nx = u.y() * v.z() - u.z() * v.y(), ny = u.z() * v.x() - u.x() * v.z(),
+               nz = u.x() * v.y() - u.y() * v.x();
+  const double dx = p.x() - q.x(), dy = p.y() - q.y(), dz = p.z() - q.z();
+  const double d2_xy = dx * dx + dy * dy, c = nz * dz;
+  return ((nx * nx + ny * ny) * d2_xy - c * c) / (d2_xy + dz * dz);
+}
 
-  NoFix verdict() const {
-    if (same_bearing == pairs) return NoFix::kSameBearing;
-    if (stacked == pairs) return NoFix::kStacked;
-    if (behind > 0) return NoFix::kBehindCamera;
-    return without_root > 0 ? NoFix::kResidual : NoFix::kDegenerate;
+int sharpest_with(const BearingFit& model, int first) {
+  int best = -1;
+  double most = 0;
+  for (int i = 0; i < model.size(); ++i) {
+    if (i == first) continue;
+    const double sharp = sharpness(model.bearing(first), model.bearing(i));
+    if (!(sharp > most)) continue;
+    most = sharp;
+    best = i;
   }
-};
+  return best;
+}
+
+/// Keeps the best that differ, in order.
+void keep(Hypotheses& best, const Hypothesis& candidate) {
+  for (auto known = best.begin(); known != best.end(); ++known) {
+    if (!same_pose(known->fit.pose, candidate.fit.pose)) continue;
+    if (known->score <= candidate.score) return;
+    best.erase(known);
+    break;
+  }
+  if (best.size() == best.capacity()) {
+    if (best.back().score <= candidate.score) return;
+    best.pop_back();
+  }
+  const auto place = std::upper_bound(best.begin(), best.end(), candidate,
+                                      [](const Hypothesis& a, const Hypothesis& b) { return a.score < b.score; });
+  best.insert(place, candidate);
+}
+
+Result<Roots, NoFix> roots_of(const BearingFit& model, int i, int j) {
+  if (same_bearing(model, i, j)) return NoFix::kSameBearing;
+  if (stacked(model, i, j)) return NoFix::kStacked;
+  const auto roots = two_beacon_roots(model.bearing(i), model.bearing(j));
+  if (!roots) return roots.error() == TwoBeaconFault::kContradiction ? NoFix::kResidual : NoFix::kDegenerate;
+  Roots passed;
+  for (const TwoBeaconRoot& root : *roots)
+    if (root.in_front()) passed.push_back(root);
+  if (passed.empty()) return NoFix::kBehindCamera;
+  return passed;
+}
+
+/// How many pairs failed, and of what.
+NoFix verdict(const DropCounts<NoFix>& faults, unsigned pairs) {
+  if (faults[NoFix::kSameBearing] == pairs) return NoFix::kSameBearing;
+  if (faults[NoFix::kStacked] == pairs) return NoFix::kStacked;
+  if (faults[NoFix::kBehindCamera] > 0) return NoFix::kBehindCamera;
+  return faults[NoFix::kResidual] > 0 ? NoFix::kResidual : NoFix::kDegenerate;
+}
 
 }  // namespace
 
-Result<std::vector<Hypothesis>, NoFix> hypotheses(const BearingFit& model, const std::vector<BeaconBearing>& bearings,
-                                                  double gate_chi2) {
-  std::vector<Hypothesis> found;
-  PairCounts counts;
+bool same_pose(const LevelledPose& a, const LevelledPose& b) {
+  constexpr double kNear_m = 0.3, kNear_rad = 0.1;
+  // |A - B|^2 of two rotations is 2 turn^2 to second order.
+  return (a.camera_map - b.camera_map).squaredNorm() < kNear_m * kNear_m &&
+         (a.R_map_level - b.R_map_level).squaredNorm() < 2 * kNear_rad * kNear_rad;
+}
+
+Result<Roots, NoFix> roots_in_front(const BearingFit& two_beacons) { return roots_of(two_beacons, 0, 1); }
+
+Starts starts_of_sharpest_pair(const BearingFit& model) {
+  Starts found;
+  int first = 0, second = sharpest_with(model, first);
+  if (second < 0) return found;
+  first = sharpest_with(model, second);
+  if (const auto roots = roots_of(model, first, second))
+    for (const TwoBeaconRoot& root : *roots) found.push_back(LevelledPose::of(root));
+  return found;
+}
+
+Result<Hypotheses, NoFix> hypotheses_of_all_pairs(const BearingFit& model, double gate_chi2) {
+  Hypotheses best;
+  DropCounts<NoFix> faults;
+  unsigned pairs = 0;
   for (int i = 0; i < model.size(); ++i)
     for (int j = i + 1; j < model.size(); ++j) {
-      ++counts.pairs;
-      const bool one_bearing = same_bearing(bearings[i], bearings[j]), one_vertical = stacked(bearings[i], bearings[j]);
-      counts.same_bearing += one_bearing;
-      counts.stacked += one_vertical && !one_bearing;
-      if (one_bearing || one_vertical) continue;
-      const auto roots = two_beacon_roots({model.beacon_map(i), model.direction_level(i)},
-                                          {model.beacon_map(j), model.direction_level(j)});
+      ++pairs;
+      const auto roots = roots_of(model, i, j);
       if (!roots) {
-        counts.without_root += roots.error() == TwoBeaconFault::kContradiction;
+        faults.add(roots.error());
         continue;
       }
-      int in_front = 0;
       for (const TwoBeaconRoot& root : *roots) {
-        if (!root.in_front()) continue;
-        ++in_front;
-        const PoseUnknowns unknowns = model.at_camera(root.camera_map, root.yaw_rad);
-        found.push_back({unknowns, score(model, unknowns, gate_chi2)});
+        const PoseFit fit = model.of_root(root, i, j);
+        if (fit.regular) keep(best, {fit, score(model, fit, i, j, gate_chi2)});
       }
-      counts.behind += in_front == 0;
     }
-  if (found.empty()) return counts.verdict();
-  std::sort(found.begin(), found.end(), [](const Hypothesis& a, const Hypothesis& b) { return a.score < b.score; });
-  return found;
+  if (best.empty()) return verdict(faults, pairs);
+  return best;
 }
 
 }  // namespace lodestar

@@ -1,41 +1,40 @@
 #include "lodestar/estimation/pose/pose_solver.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "bearing_fit.hpp"
+#include "base_pose.hpp"
 #include "hypotheses.hpp"
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/base/common/chi_square.hpp"
 
 namespace lodestar {
-namespace {
 
 /// A fitted pose with the bearings that agree with it.
-struct Candidate {
+struct PoseSolver::Candidate {
   PoseFit fit;
   Selection agrees;
   int count = 0;
   double cost = 0;  ///< chi2 of the fit, and the gate for each bearing that does not agree
+  double residual2_rad2 = 0;
 };
 
-constexpr int kMaxRefinements = 12;
-constexpr int kMaxCandidates = 4;
+namespace {
+
+constexpr int kMaxRounds = 8;
+constexpr double kLeastSigma_rad = 1e-6;  ///< keeps a tilt or mount that claims to be exact solvable
+
+double square(double x) { return x * x; }
 
 bool finite_transform(const RigidTransform& T) {
   return T.matrix().allFinite() && (T.linear() * T.linear().transpose()).isIdentity(1e-6);
 }
 
 bool valid(const BeaconBearing& b) {
-  if (!b.position_map.allFinite() || !b.direction_camera.allFinite() || !b.covariance.allFinite()) return false;
-  if (!(b.position_sigma_m >= 0 && std::isfinite(b.position_sigma_m))) return false;
-  if (std::abs(b.direction_camera.norm() - 1) > 1e-6) return false;
-  const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - b.direction_camera * b.direction_camera.transpose();
-  // Largest two eigenvalues are the tangent plane's: both must say something.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(tangent * b.covariance * tangent, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()(1) > 1e-16 && eigen.eigenvalues()(0) > -1e-12;
+  const double sum = b.position_map.sum() + b.covariance.sum() + b.position_sigma_m;  // finite if all are
+  return std::isfinite(sum) && b.position_sigma_m >= 0 && std::abs(b.direction_camera.squaredNorm() - 1) <= 2e-6;
 }
 
 bool valid(const BeaconBearings& bearings, const Tilt& tilt, const RigidTransform& T_base_camera) {
@@ -45,91 +44,41 @@ bool valid(const BeaconBearings& bearings, const Tilt& tilt, const RigidTransfor
                      [](const BeaconBearing& b) { return valid(b); });
 }
 
-int count(const Selection& selection) { return static_cast<int>(std::count(selection.begin(), selection.end(), true)); }
+LevelledMount levelled_mount(const Tilt& tilt, const RigidTransform& T_base_camera, double mount_sigma_rad) {
+  const double sr = std::sin(tilt.roll_rad), cr = std::cos(tilt.roll_rad);
+  const double sp = std::sin(tilt.pitch_rad), cp = std::cos(tilt.pitch_rad);
+  LevelledMount mount;
+  mount.R_level_base << cp, sp * sr, sp * cr, 0, cr, -sr, -sp, cp * sr, cp * cr;
+  mount.camera_level = mount.R_level_base * T_base_camera.translation();
+  mount.tilt_variance = square(std::max(tilt.sigma_rad, kLeastSigma_rad));
+  mount.mount_variance = square(std::max(mount_sigma_rad, kLeastSigma_rad));
+  return mount;
+}
+
+/// Keeps candidates in the order of their cost.
+template <class Candidates, class Candidate>
+void insert(Candidates& sorted, Candidate&& candidate) {
+  const auto dearer = [&](const auto& other) { return candidate.cost < other.cost; };
+  sorted.insert(std::find_if(sorted.begin(), sorted.end(), dearer), std::forward<Candidate>(candidate));
+}
 
 /// The bearings that a hypothesis, straight from the closed form, agrees with.
-Selection agreeing(const BearingFit& model, const PoseUnknowns& unknowns, double gate_chi2) {
+Selection agreeing(const BearingFit& model, const PoseFit& fit, double gate_chi2) {
   Selection agrees(model.size());
   for (int i = 0; i < model.size(); ++i) {
-    const BearingFit::Residual r = model.residual(i, unknowns);
-    const Eigen::Matrix2d S = r.covariance + model.attitude_variance() * Eigen::Matrix2d::Identity();
-    agrees[i] = r.in_front && r.value_rad.dot(S.inverse() * r.value_rad) < gate_chi2;
+    const BearingFit::Residual r = model.residual(i, fit.pose);
+    agrees[i] = r.near() && r.chi2(model.innovation(i, r, fit.covariance)) < gate_chi2;
   }
   return agrees;
 }
 
-/// The bearings that a fit agrees with: those that took part by their residual, the others by their innovation.
-Selection agreeing(const BearingFit& model, const PoseFit& fit, const Selection& took_part, double gate_chi2) {
-  Selection agrees(model.size());
-  for (int i = 0; i < model.size(); ++i) {
-    const BearingFit::Residual r = model.residual(i, fit.unknowns);
-    Eigen::Matrix2d S = r.covariance;
-    if (!took_part[i]) S += r.J * fit.covariance * r.J.transpose();
-    agrees[i] = r.in_front && r.value_rad.dot(S.inverse() * r.value_rad) < gate_chi2;
-  }
-  return agrees;
-}
+/// Whether so many that agree may speak for all: a majority, and of three and more at least three.
+bool quorum(int count, int of) { return count >= std::min(of, 3) && 2 * count > of; }
 
-std::optional<Candidate> refine(const BearingFit& model, const Hypothesis& hypothesis, double gate_chi2) {
-  Candidate candidate;
-  candidate.agrees = agreeing(model, hypothesis.unknowns, gate_chi2);
-  candidate.fit.unknowns = hypothesis.unknowns;
-  for (int round = 0; round < 5; ++round) {
-    if (count(candidate.agrees) < 2) return std::nullopt;
-    candidate.fit = model.fit(candidate.fit.unknowns, candidate.agrees);
-    if (!candidate.fit.regular) break;
-    const Selection agrees = agreeing(model, candidate.fit, candidate.agrees, gate_chi2);
-    if (agrees == candidate.agrees) break;
-    if (round < 4) candidate.agrees = agrees;
-  }
-  candidate.count = count(candidate.agrees);
-  candidate.cost = candidate.fit.chi2 + (model.size() - candidate.count) * gate_chi2;
-  return candidate;
-}
+int degrees_of_freedom(int bearings) { return std::max(1, 2 * bearings - 4); }
 
-double distance_m(const PoseUnknowns& a, const PoseUnknowns& b) { return (a.base_map - b.base_map).norm(); }
-double turn_rad(const PoseUnknowns& a, const PoseUnknowns& b) { return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)); }
-
-/// Whether both are one pose, found twice. Two beacons alone have exactly two roots, however close.
-bool same_pose(const PoseUnknowns& a, const PoseUnknowns& b, int beacons) {
-  const double limit = beacons == 2 ? 1e-6 : 0.1;
-  return distance_m(a, b) < 3 * limit && turn_rad(a, b) < limit;
-}
-
-/// Distinct poses, best first.
-std::vector<Candidate> candidates(const BearingFit& model, const std::vector<Hypothesis>& hypotheses,
-                                  double gate_chi2) {
-  std::vector<Candidate> found;
-  const auto known = [&](const PoseUnknowns& unknowns) {
-    return std::any_of(found.begin(), found.end(),
-                       [&](const Candidate& c) { return same_pose(c.fit.unknowns, unknowns, model.size()); });
-  };
-  int refinements = 0;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    if (refinements == kMaxRefinements || static_cast<int>(found.size()) == kMaxCandidates) break;
-    if (known(hypothesis.unknowns)) continue;
-    ++refinements;
-    const std::optional<Candidate> candidate = refine(model, hypothesis, gate_chi2);
-    if (candidate && !known(candidate->fit.unknowns)) found.push_back(*candidate);
-  }
-  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  return found;
-}
-
-Fix make_fix(const BearingFit& model, const Candidate& candidate, const BeaconBearings& bearings) {
-  Fix fix;
-  fix.stamp = bearings.stamp;
-  fix.T_map_base = model.T_map_base(candidate.fit.unknowns);
-  fix.covariance = model.pose_covariance(candidate.fit);
-  double sum = 0;
-  for (int i = 0; i < model.size(); ++i) {
-    if (!candidate.agrees[i]) continue;
-    fix.beacons.push_back(bearings.bearings[i].beacon);
-    sum += model.residual(i, candidate.fit.unknowns).value_rad.squaredNorm();
-  }
-  fix.residual_rms_rad = std::sqrt(sum / candidate.count);
-  return fix;
-}
+/// A chi2 that a thousand frames without an error would hardly exceed: mean and three sigma.
+double ordinary_chi2(int dof) { return dof + 3 * std::sqrt(2.0 * dof); }
 
 /// Squared distance from the prior in x, y, z, yaw.
 double chi2_from(const PoseEstimate& prior, const Fix& fix) {
@@ -145,22 +94,25 @@ double chi2_from(const PoseEstimate& prior, const Fix& fix) {
 }
 
 /// Which of several equally good poses the prior means, or none in doubt.
-std::optional<Fix> chosen_by(const std::optional<PoseEstimate>& prior, const std::vector<Fix>& fixes,
-                             double probability, double margin_chi2) {
-  if (!prior) return std::nullopt;
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < fixes.size(); ++i) order.emplace_back(chi2_from(*prior, fixes[i]), i);
-  std::sort(order.begin(), order.end());
-  if (!(order[0].first < chi_square_quantile(probability, 4))) return std::nullopt;
-  if (!(order[1].first - order[0].first >= margin_chi2)) return std::nullopt;
-  return fixes[order[0].second];
+const Fix* chosen_by(const PoseEstimate& prior, const PoseSolutions& solutions, double gate_chi2, double margin_chi2) {
+  const Fix* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity(), next = least;
+  for (const PoseSolution& solution : solutions) {
+    const double chi2 = chi2_from(prior, solution.fix);
+    if (chi2 < least) {
+      next = std::exchange(least, chi2);
+      nearest = &solution.fix;
+    } else {
+      next = std::min(next, chi2);
+    }
+  }
+  return least < gate_chi2 && next - least >= margin_chi2 ? nearest : nullptr;
 }
 
-bool within_limits(const Fix& fix, const PoseSolverParams& params) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(fix.covariance.topLeftCorner<3, 3>(),
-                                                             Eigen::EigenvaluesOnly);
-  return fix.covariance.allFinite() && std::sqrt(eigen.eigenvalues()(2)) <= params.max_position_sigma_m &&
-         std::sqrt(fix.covariance(5, 5)) <= params.max_yaw_sigma_rad;
+/// Whether `limit` - P is positive definite: whether no eigenvalue of P reaches the limit.
+bool below(const Eigen::Matrix3d& P, double limit) {
+  const Eigen::Matrix3d rest = limit * Eigen::Matrix3d::Identity() - P;
+  return rest(0, 0) > 0 && rest(0, 0) * rest(1, 1) > rest(0, 1) * rest(1, 0) && rest.determinant() > 0;
 }
 
 }  // namespace
@@ -185,6 +137,8 @@ const char* name(NoFix reason) {
       return "degenerate";
     case NoFix::kResidual:
       return "residual";
+    case NoFix::kOffFloor:
+      return "off floor";
     case NoFix::kInvalid:
       return "invalid";
     case NoFix::kCount:
@@ -193,35 +147,175 @@ const char* name(NoFix reason) {
   return "unknown";
 }
 
-PoseSolver::PoseSolver(const PoseSolverParams& params) : params_(params) {}
+PoseSolver::PoseSolver(const PoseSolverParams& params)
+    : params_(params),
+      gate_chi2_(chi_square_quantile(params.inlier_probability, 2)),
+      prior_gate_chi2_(chi_square_quantile(params.inlier_probability, 4)) {}
+
+/// Fits, and fits anew without the bearing that disagrees most, one at a time, for a lie pulls the others off with it;
+/// then with those that had no part and agree. Those in the fit are judged by their residual, others by their
+/// innovation.
+PoseSolver::Candidate PoseSolver::refine(const BearingFit& model, const LevelledPose& start, const Selection& selection,
+                                         int rounds) const {
+  Candidate candidate;
+  Selection part = selection;
+  for (int round = 0; round < rounds; ++round) {
+    candidate.fit = model.fit(round == 0 ? start : candidate.fit.pose, part, params_.gravity);
+    candidate.agrees.assign(part.size(), false);
+    candidate.count = 0;
+    candidate.residual2_rad2 = 0;
+    if (!candidate.fit.regular) break;
+    int worst = -1;
+    double most = 0;
+    for (int i = 0; i < model.size(); ++i) {
+      const BearingFit::Residual r = model.residual(i, candidate.fit.explained);
+      const double chi2 = part[i] ? r.chi2() : r.chi2(model.innovation(i, r, candidate.fit.covariance));
+      candidate.agrees[i] = r.near() && chi2 < gate_chi2_;
+      if (candidate.agrees[i]) {
+        ++candidate.count;
+        candidate.residual2_rad2 += r.x_rad * r.x_rad + r.y_rad * r.y_rad;
+      } else if (part[i] && chi2 > most) {
+        most = chi2;
+        worst = i;
+      }
+    }
+    if (candidate.agrees == part) break;
+    if (worst >= 0) {
+      part[worst] = false;
+    } else {
+      part = candidate.agrees;
+    }
+    if (std::count(part.begin(), part.end(), true) < 2) break;
+  }
+  candidate.cost = candidate.fit.chi2 + (model.size() - candidate.count) * gate_chi2_;
+  return candidate;
+}
+
+/// What the sharpest pair's roots become in a fit of all bearings, if all agree and leave no more than noise does: then
+/// any other pose leaves a bearing out, and there is nothing to vote on. Empty otherwise.
+PoseSolver::Candidates PoseSolver::unquestioned(const BearingFit& model) const {
+  Candidates found;
+  for (const LevelledPose& start : starts_of_sharpest_pair(model)) {
+    Candidate candidate = refine(model, start, Selection(model.size(), true), 1);
+    const bool ordinary = candidate.fit.chi2 < ordinary_chi2(degrees_of_freedom(model.size()));
+    if (candidate.fit.regular && candidate.count == model.size() && ordinary) insert(found, std::move(candidate));
+  }
+  if (found.size() == 2 && same_pose(found[0].fit.pose, found[1].fit.pose)) found.pop_back();
+  return found;
+}
+
+Result<PoseSolver::Candidates, NoFix> PoseSolver::voted(const BearingFit& model) const {
+  const auto proposed = hypotheses_of_all_pairs(model, gate_chi2_);
+  if (!proposed) return proposed.error();
+  Candidates found;
+  for (const Hypothesis& hypothesis : *proposed) {
+    const auto same = [&](const Candidate& known) { return same_pose(known.fit.pose, hypothesis.fit.pose); };
+    if (std::any_of(found.begin(), found.end(), same)) continue;
+    const Selection selection = agreeing(model, hypothesis.fit, gate_chi2_);
+    if (std::count(selection.begin(), selection.end(), true) < 2) continue;
+    Candidate candidate = refine(model, hypothesis.fit.pose, selection, kMaxRounds);
+    if (candidate.count < 2) continue;
+    const auto again = [&](const Candidate& known) { return same_pose(known.fit.pose, candidate.fit.pose); };
+    if (std::any_of(found.begin(), found.end(), again)) continue;
+    if (found.size() == found.capacity()) {
+      if (found.back().cost <= candidate.cost) continue;
+      found.pop_back();
+    }
+    insert(found, std::move(candidate));
+  }
+  return found;
+}
+
+Result<PoseSolver::Candidates, NoFix> PoseSolver::roots_of_two(const BearingFit& model) const {
+  const auto roots = roots_in_front(model);
+  if (!roots) return roots.error();
+  Candidates found;
+  for (const TwoBeaconRoot& root : *roots) {
+    Candidate candidate;
+    candidate.fit = model.of_root(root, 0, 1);
+    candidate.agrees = Selection(2, true);
+    candidate.count = 2;
+    if (candidate.fit.regular) found.push_back(std::move(candidate));
+  }
+  if (found.empty()) return NoFix::kDegenerate;
+  return found;
+}
+
+Result<PoseSolver::Candidates, NoFix> PoseSolver::candidates(const BearingFit& model) const {
+  if (model.size() == 2) return roots_of_two(model);
+  Candidates plain = unquestioned(model);
+  if (!plain.empty()) return plain;
+  return voted(model);
+}
+
+bool PoseSolver::within_limits(const PoseEstimate& pose) const {
+  return pose.covariance.allFinite() &&
+         below(pose.covariance.topLeftCorner<3, 3>(), square(params_.max_position_sigma_m)) &&
+         pose.covariance(5, 5) <= square(params_.max_yaw_sigma_rad);
+}
+
+bool PoseSolver::on_floor(const PoseEstimate& pose) const {
+  const double off_m = std::abs(pose.T_map_base.translation().z() - params_.floor_z_m);
+  return !(off_m > params_.floor_tolerance_m + 3 * std::sqrt(pose.covariance(2, 2)));
+}
+
+/// Why the best of them, which come in order, is no fix.
+std::optional<NoFix> PoseSolver::fault_of(const BearingFit& model, const Candidates& sorted) const {
+  if (sorted.empty()) return NoFix::kResidual;
+  const Candidate& best = sorted.front();
+  if (!quorum(best.count, model.size())) return NoFix::kResidual;
+  if (best.fit.chi2 > params_.max_residual_chi2_per_dof * degrees_of_freedom(best.count)) return NoFix::kResidual;
+  if (!best.fit.regular) return NoFix::kDegenerate;
+  return std::nullopt;
+}
+
+Fix PoseSolver::fix(const Candidate& candidate, const LevelledMount& mount, const BeaconBearings& bearings) {
+  Fix fix;
+  fix.stamp = bearings.stamp;
+  set_base(candidate.fit, mount, fix);
+  fix.residual_rms_rad = std::sqrt(candidate.residual2_rad2 / candidate.count);
+  fix.beacons.reserve(static_cast<std::size_t>(candidate.count));
+  for (std::size_t i = 0; i < bearings.bearings.size(); ++i)
+    if (candidate.agrees[i]) fix.beacons.push_back(bearings.bearings[i].beacon);
+  return fix;
+}
+
+Result<PoseSolutions, NoFix> PoseSolver::solutions(const BeaconBearings& bearings, const Tilt& tilt,
+                                                   const RigidTransform& T_base_camera) const {
+  if (!valid(bearings, tilt, T_base_camera)) return NoFix::kInvalid;
+  if (bearings.bearings.size() < 2) return NoFix::kTooFewBeacons;
+  const LevelledMount mount = levelled_mount(tilt, T_base_camera, params_.camera_mount_sigma_rad);
+  const BearingFit model(bearings.bearings, mount.R_level_base * T_base_camera.linear(),
+                         std::sqrt(mount.tilt_variance + mount.mount_variance));
+  if (!model.valid()) return NoFix::kInvalid;
+  const auto found = candidates(model);
+  if (!found) return found.error();
+  if (const auto fault = fault_of(model, *found)) return *fault;
+
+  PoseSolutions out;
+  for (const Candidate& candidate : *found) {
+    if (!candidate.fit.regular || !quorum(candidate.count, model.size())) continue;
+    if (!(candidate.cost < found->front().cost + params_.margin_chi2)) continue;
+    out.push_back({fix(candidate, mount, bearings), candidate.fit.chi2});
+    if (!on_floor(out.back().fix)) out.pop_back();
+  }
+  if (out.empty()) return NoFix::kOffFloor;
+  const auto sharp = [&](const PoseSolution& solution) { return within_limits(solution.fix); };
+  if (std::none_of(out.begin(), out.end(), sharp)) return NoFix::kDegenerate;
+  return out;
+}
 
 Result<Fix, NoFix> PoseSolver::solve(const BeaconBearings& bearings, const Tilt& tilt,
                                      const RigidTransform& T_base_camera,
                                      const std::optional<PoseEstimate>& prior) const {
-  if (!valid(bearings, tilt, T_base_camera)) return NoFix::kInvalid;
-  if (bearings.bearings.size() < 2) return NoFix::kTooFewBeacons;
-  const double gate_chi2 = chi_square_quantile(params_.inlier_probability, 2);
-  const BearingFit model(bearings.bearings, tilt, T_base_camera, params_.camera_mount_sigma_rad);
-  const auto proposed = hypotheses(model, bearings.bearings, gate_chi2);
-  if (!proposed) return proposed.error();
-
-  const std::vector<Candidate> found = candidates(model, *proposed, gate_chi2);
-  if (found.empty()) return NoFix::kResidual;
-  const Candidate& best = found.front();
-  if (best.count < std::min(model.size(), 3) || 2 * best.count <= model.size()) return NoFix::kResidual;
-  const int dof = std::max(1, 2 * best.count - 4);
-  if (best.fit.chi2 > params_.max_residual_chi2_per_dof * dof) return NoFix::kResidual;
-  if (!best.fit.regular) return NoFix::kDegenerate;
-
-  std::vector<Fix> fixes;
-  for (const Candidate& candidate : found)
-    if (candidate.fit.regular && candidate.cost < best.cost + params_.margin_chi2)
-      fixes.push_back(make_fix(model, candidate, bearings));
-  std::optional<Fix> fix = fixes.front();
-  if (fixes.size() > 1) fix = chosen_by(prior, fixes, params_.inlier_probability, params_.margin_chi2);
-  if (!fix) return NoFix::kAmbiguous;
-  if (!within_limits(*fix, params_)) return NoFix::kDegenerate;
-  return *fix;
+  auto found = solutions(bearings, tilt, T_base_camera);
+  if (!found) return found.error();
+  PoseSolutions solutions = std::move(found).value();
+  if (solutions.size() == 1) return std::move(solutions.front().fix);
+  const Fix* chosen = prior ? chosen_by(*prior, solutions, prior_gate_chi2_, params_.margin_chi2) : nullptr;
+  if (!chosen) return NoFix::kAmbiguous;
+  if (!within_limits(*chosen)) return NoFix::kDegenerate;
+  return *chosen;
 }
 
 }  // namespace lodestar

@@ -15,7 +15,7 @@ struct LevelledBearing {
 
 /// One of the two poses from which two beacons are seen under two given bearings.
 struct TwoBeaconRoot {
-  double yaw_rad = 0;
+  double yaw_cos = 1, yaw_sin = 0;
   Eigen::Vector3d camera_map = Eigen::Vector3d::Zero();  ///< m
   std::array<double, 2> depth_m{};  ///< along each bearing; negative: the beacon would be behind the camera
   double miss_m = 0;                ///< between the two rays; 0 but for a clamped double root
@@ -33,8 +33,8 @@ enum class TwoBeaconFault {
 };
 
 /// Position and yaw of a levelled camera that sees two known beacons: both roots (docs/math/closed_form.md, equations
-/// 1 to 9), after Heissmeyer, Overmeyer, Müller 2013. It solves for the angle itself, hence has no blind quadrant and
-/// loses no digits near 90 deg.
+/// 1 to 9), after Heissmeyer, Overmeyer, Müller 2013. Yaw is found as (cos, sin): no angle is taken, hence no quadrant
+/// is blind and no digits are lost near 90 deg.
 /// @param slack how far |c| / h may exceed 1 through noise (equation 5); within it the double root is returned twice
 Result<std::array<TwoBeaconRoot, 2>, TwoBeaconFault> two_beacon_roots(const LevelledBearing& first,
                                                                       const LevelledBearing& second,

