@@ -34,7 +34,7 @@ struct TrueCamera {
 /// One sample and when it reaches the computer.
 struct Event {
   Stamp received;
-  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, Fix, TrueBase, TrueCamera> data;
+  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix> data;
 };
 
 /// A whole run of a scenario: what the sensors say, in the order of reception. The same seed gives the same run, bit by

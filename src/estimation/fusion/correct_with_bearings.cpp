@@ -6,6 +6,7 @@
 #include "lodestar/estimation/fusion/corrections.hpp"
 #include "lodestar/estimation/fusion/mm_bearing.hpp"
 #include "lodestar/estimation/fusion/optical_health.hpp"
+#include "lodestar/estimation/fusion/propagation.hpp"
 #include "lodestar/estimation/fusion/source_offsets.hpp"
 
 namespace lodestar::fusion {
@@ -79,8 +80,8 @@ std::optional<int> offset_of(FilterState& state, const BeaconBearing& bearing, c
 
 std::optional<Innovation<2>> innovation(const FilterState& state, const Candidate& candidate, const Rig& rig,
                                         const PoseFilterParams& params) {
-  return bearing_innovation(state, *candidate.bearing, state.offsets[candidate.offset].value, candidate.offset, rig,
-                            params.bearing_noise_share);
+  return bearing_innovation(state, *candidate.bearing, state.offsets[candidate.offset].value, candidate.offset,
+                            angular_velocity(state, params), rig, params.bearing_noise_share);
 }
 
 double distance2(const FilterState& state, const Candidate& candidate, const Rig& rig, const PoseFilterParams& params) {

@@ -2,25 +2,13 @@
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/estimation/fusion/mm_wheels.hpp"
+#include "lodestar/estimation/fusion/propagation.hpp"
 
 namespace lodestar::fusion {
 namespace {
 
-constexpr double kFreshWheels_s = 0.5;
 constexpr double kAnyVelocity_m_s = 2.0;
 constexpr double kVerticalVelocity_m_s = 0.1;
-
-bool wheels_fresh(const FilterState& state) {
-  return state.inputs.wheels && seconds(state.stamp - state.inputs.wheels->stamp) < kFreshWheels_s;
-}
-
-Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params) {
-  const Inputs& in = state.inputs;
-  if (in.imu_stamp && seconds(state.stamp - *in.imu_stamp) <= params.imu_hold_s)
-    return in.angular_velocity_rad_s - state.gyro_bias;
-  if (wheels_fresh(state)) return {0, 0, in.wheels->yaw_rate_rad_s / (1.0 + state.yaw_rate_scale)};
-  return Eigen::Vector3d::Zero();
-}
 
 Eigen::Vector3d squared(double a, double b, double c) { return {a * a, b * b, c * c}; }
 
@@ -41,7 +29,7 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
   state.position = fix.T_map_base.translation() + lever_map;
 
   Eigen::Vector3d velocity_variance = squared(kAnyVelocity_m_s, kAnyVelocity_m_s, kVerticalVelocity_m_s);
-  if (wheels_fresh(state)) {
+  if (wheels_heard(state)) {
     const Eigen::Vector2d v = inputs.wheels->velocity_m_s;
     state.velocity =
         R_map_base * (Eigen::Vector3d(v.x(), v.y(), 0) + angular_velocity(state, params).cross(rig.imu_position_base));
@@ -61,6 +49,8 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
   set_sigma(state.P, kGyroBias, 3, params.gyro_bias_rad_s);
   set_sigma(state.P, kAccelerometerBias, 3, params.accelerometer_bias_m_s2);
   set_sigma(state.P, kWheelScale, 2, params.odometry_scale_sigma);
+  set_sigma(state.P, kGyroScale, 1, params.gyro_scale_sigma);
+  set_sigma(state.P, kTimeOffset, 1, params.camera_time_offset_sigma_s);
   set_sigma(state.P, kMount, 3, params.camera_mount_sigma_rad);
   set_sigma(state.P, kLensScale, 1, params.lens_scale_sigma);
   return state;

@@ -20,9 +20,11 @@ constexpr int kGyroBias = 9;            ///< rad/s, base_link
 constexpr int kAccelerometerBias = 12;  ///< m/s^2, base_link
 constexpr int kWheelScale = 15;         ///< relative
 constexpr int kYawRateScale = 16;       ///< relative
-constexpr int kMount = 17;              ///< rad, base_link
-constexpr int kLensScale = 20;          ///< relative, of the angle to the optical axis
-constexpr int kCore = 21;
+constexpr int kGyroScale = 17;          ///< relative, about base_link's z
+constexpr int kMount = 18;              ///< rad, base_link
+constexpr int kLensScale = 21;          ///< relative, of the angle to the optical axis
+constexpr int kTimeOffset = 22;         ///< s, of the camera's stamps
+constexpr int kCore = 23;
 constexpr int kMaxOffsets = 16;  ///< source offsets of three components follow the core
 constexpr int kMaxSize = kCore + 3 * kMaxOffsets;
 
@@ -39,7 +41,9 @@ struct CoreState {
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();
   double wheel_scale = 0;     ///< wheels say (1 + scale) times the truth
   double yaw_rate_scale = 0;  ///< likewise
+  double gyro_scale = 0;      ///< the gyro says (1 + scale) times the truth about z
   double lens_scale = 0;      ///< the lens model says (1 + scale) times the true angle to the optical axis
+  double time_offset_s = 0;   ///< an image was taken so much after its stamp
   Eigen::Quaterniond q_mount = Eigen::Quaterniond::Identity();  ///< R_base_camera = q_mount * nominal R_base_camera
 };
 

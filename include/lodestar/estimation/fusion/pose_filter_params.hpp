@@ -14,6 +14,8 @@ struct PoseFilterParams {
   double odometry_scale_sigma = 0.02;     ///< relative; of the speed and of the yaw rate
   double camera_mount_sigma_rad = 0.002;  ///< each axis
 
+  double camera_time_offset_sigma_s = 0.001;  ///< of the stamps; 0: taken for exact, and the state is switched off
+
   double lens_scale_sigma = 0.001;  ///< relative, of the angle to the optical axis (a focal length's error)
 
   double gate_probability = 0.999;     ///< chi-square gate of each update
@@ -35,7 +37,8 @@ struct PoseFilterParams {
 
   double gyro_bias_drift_rad_s_sqrt_s = 2e-5;          ///< random walk
   double accelerometer_bias_drift_m_s2_sqrt_s = 1e-4;  ///< random walk
-  double gyro_scale_sigma = 0.001;                     ///< relative; enters as noise while turning
+  double gyro_scale_sigma = 0.001;                     ///< relative, about base_link's z
+  double gyro_axis_sigma_rad = 0.001;                  ///< how crooked the gyro sits: turning shows as roll and pitch
   double lens_drift_rad_sqrt_m = 4e-4;                 ///< random walk of the mount on the way: the part of the lens
                                                        ///< error that the beacons in view share changes with them
   double lens_scale_drift_sqrt_m = 1e-4;               ///< likewise of the lens scale

@@ -76,7 +76,7 @@ struct TruthCameraPose {
 /// One message of a recording, converted. The camera's intrinsics come once, and again when they change.
 struct Record {
   Stamp received;  ///< when the recorder got it; the measurement's own stamp is in the content
-  std::variant<Image, CameraIntrinsics, ImuSample, OdometrySample, RawIrFrame, Fix, TruthPose, TruthCameraPose> content;
+  std::variant<Image, CameraIntrinsics, ImuSample, OdometrySample, RawIrFrame, TruthPose, TruthCameraPose, Fix> content;
 };
 
 struct RecordingReaderParams {
