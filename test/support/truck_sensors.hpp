@@ -127,6 +127,10 @@ class TruckSensors {
     true_mount_ = so3_exp(errors.mount_rad * normal3());
   }
 
+  /// Hangs a beacon elsewhere than surveyed, or shows it there in a mirror.
+  void move_beacon(std::size_t index, const Eigen::Vector3d& shift) { hall_.marks.at(index).true_position += shift; }
+  const Hall& hall() const { return hall_; }
+
   const RigidTransform& T_base_camera() const { return T_base_camera_; }
   const Eigen::Vector3d& imu_position_base() const { return imu_position_base_; }
 

@@ -12,6 +12,16 @@ constexpr double kMaxStep_s = 0.05;            ///< the Jacobians are of second 
 constexpr double kUnknownYawRate_rad_s = 0.3;  ///< a truck of which nothing is heard
 constexpr double kWheelsHold_s = 0.5;          ///< wheel speed is good for so long
 
+/// The time offset forgets, so that a clock that goes wrong later is noticed too: a Gauss-Markov process.
+void relax_time_offset(FilterState& state, double dt_s, const PoseFilterParams& params) {
+  if (state.time_offset_prior_s2 == 0) return;
+  const double keep = std::exp(-dt_s / params.camera_time_offset_correlation_s);
+  state.P.row(kTimeOffset) *= keep;
+  state.P.col(kTimeOffset) *= keep;
+  state.P(kTimeOffset, kTimeOffset) += (1.0 - keep * keep) * state.time_offset_prior_s2;
+  state.time_offset_s *= keep;
+}
+
 void spread(FilterState& state, const Transition& step, double dt_s, const PoseFilterParams& params) {
   Covariance& P = state.P;
   const Eigen::Matrix<double, kStepWrites, Eigen::Dynamic, 0, kStepWrites, kMaxSize> rows =
@@ -31,6 +41,7 @@ void spread(FilterState& state, const Transition& step, double dt_s, const PoseF
   const double root_speed = std::sqrt(state.velocity.head<2>().norm());
   walk(kMount, 3, std::hypot(params.mount_drift_rad_sqrt_s, params.lens_drift_rad_sqrt_m * root_speed));
   walk(kLensScale, 1, params.lens_scale_drift_sqrt_m * root_speed);
+  relax_time_offset(state, dt_s, params);
 }
 
 /// Right Jacobian of SO(3), to the order that a step of some milliseconds needs.

@@ -16,6 +16,18 @@ void set_sigma(Covariance& P, int at, int length, double sigma) {
   P.diagonal().segment(at, length).setConstant(sigma * sigma);
 }
 
+/// The fix is where the vehicle was when its image was taken, not when it was stamped.
+void add_time_offset(FilterState& state, const PoseFilterParams& params) {
+  Eigen::Matrix<double, 9, 1> by_offset = Eigen::Matrix<double, 9, 1>::Zero();
+  by_offset.segment<3>(kPosition) = -state.velocity;
+  by_offset.segment<3>(kRotation) = -(state.q_map_base * angular_velocity(state, params));
+  const double variance = state.time_offset_prior_s2;
+  state.P.topLeftCorner<9, 9>() += variance * by_offset * by_offset.transpose();
+  state.P.block<9, 1>(0, kTimeOffset) = variance * by_offset;
+  state.P.block<1, 9>(kTimeOffset, 0) = variance * by_offset.transpose();
+  state.P(kTimeOffset, kTimeOffset) = variance;
+}
+
 }  // namespace
 
 FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, const PoseFilterParams& params) {
@@ -50,10 +62,19 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
   set_sigma(state.P, kAccelerometerBias, 3, params.accelerometer_bias_m_s2);
   set_sigma(state.P, kWheelScale, 2, params.odometry_scale_sigma);
   set_sigma(state.P, kGyroScale, 1, params.gyro_scale_sigma);
-  set_sigma(state.P, kTimeOffset, 1, params.camera_time_offset_sigma_s);
+  state.time_offset_prior_s2 = params.camera_time_offset_sigma_s * params.camera_time_offset_sigma_s;
+  add_time_offset(state, params);
   set_sigma(state.P, kMount, 3, params.camera_mount_sigma_rad);
   set_sigma(state.P, kLensScale, 1, params.lens_scale_sigma);
   return state;
+}
+
+BaseJacobian base_jacobian(const FilterState& state, const Rig& rig) {
+  BaseJacobian J = BaseJacobian::Zero();
+  J.block<3, 3>(0, kPosition).setIdentity();
+  J.block<3, 3>(0, kRotation) = skew(state.q_map_base * rig.imu_position_base);
+  J.block<3, 3>(3, kRotation).setIdentity();
+  return J;
 }
 
 StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFilterParams& params) {
@@ -66,10 +87,7 @@ StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFi
   out.angular_velocity_rad_s = angular_velocity(state, params);
   out.velocity_base_m_s = velocity_base(state, out.angular_velocity_rad_s + state.gyro_bias, rig);
 
-  Eigen::Matrix<double, 6, 9> J = Eigen::Matrix<double, 6, 9>::Zero();
-  J.block<3, 3>(0, kPosition).setIdentity();
-  J.block<3, 3>(0, kRotation) = skew(lever_map);
-  J.block<3, 3>(3, kRotation).setIdentity();
+  const BaseJacobian J = base_jacobian(state, rig);
   out.covariance = J * state.P.topLeftCorner<9, 9>() * J.transpose();
   return out;
 }

@@ -59,6 +59,9 @@ struct SourceOffset {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();      ///< m in map, or rad
   Eigen::Vector3d place = Eigen::Vector3d::Zero();      ///< of the beacon as given
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< the view (direction or position) that the value belongs to
+  Eigen::Matrix3d prior = Eigen::Matrix3d::Zero();      ///< covariance of the offset if it is as unknown as at first
+  int gated = 0;                                        ///< measurements of it that were refused, in a row
+  bool excluded = false;                                ///< found to lie: not used
   Stamp last_seen;
   std::optional<Stamp> last_used;
 };
@@ -87,6 +90,7 @@ struct FilterState : CoreState {
   Stamp stamp;
   std::array<SourceOffset, kMaxOffsets> offsets;
   int offset_count = 0;
+  double time_offset_prior_s2 = 0;  ///< variance of the time offset at first; 0: switched off
   Covariance P = Covariance::Zero(kCore, kCore);
   Inputs inputs;
   Health health;
