@@ -26,7 +26,9 @@ void nees(int seeds) {
               band3.high, band6.low, band6.high);
   std::printf("%-28s %8s %8s %10s %8s %8s %9s %9s\n", "scenario", "NEES/3", "NEES/6", "NIS beac.", "fixes", "wheels",
               "rmse mm", "yaw deg");
-  for (const NeesScenario& scenario : nees_scenarios()) {
+  std::vector<NeesScenario> scenarios = nees_scenarios();
+  scenarios.push_back(white_noise());
+  for (const NeesScenario& scenario : scenarios) {
     const NeesOutcome out = run_nees(scenario, seeds);
     std::printf("%-28s %7.2f%s %7.2f%s %10.2f %8.2f %8.2f %9.1f %9.3f\n", scenario.name.c_str(), out.nees3,
                 band3.holds(out.nees3) ? " " : "!", out.nees6, band6.holds(out.nees6) ? " " : "!",

@@ -19,6 +19,8 @@ struct NeesScenario {
   double from_s = 2, until_s = 1e9;
   double spacing_m = 5;
   Eigen::Vector3d imu_position_base = Eigen::Vector3d::Zero();
+  SensorErrors errors;
+  PoseFilterParams params;
 };
 
 inline std::vector<NeesScenario> nees_scenarios() {
@@ -52,6 +54,19 @@ inline std::vector<NeesScenario> nees_scenarios() {
   return all;
 }
 
+/// Errors that are white, and a filter that is told so: here NIS has to be 1.
+inline NeesScenario white_noise() {
+  NeesScenario scenario{"white noise", round_the_hall(), {}, 5};
+  scenario.errors = SensorErrors::white();
+  PoseFilterParams& params = scenario.params;
+  params.bearing_noise_share = 1;
+  params.bearing_common_share = params.bearing_correlation_s = params.odometry_correlation_s = 0;
+  params.lens_drift_rad_sqrt_m = params.lens_scale_drift_sqrt_m = params.lens_scale_sigma = 1e-6;
+  params.sideslip_s2 = 0;
+  params.vertical_velocity_sigma_m_s = 0.01;
+  return scenario;
+}
+
 struct NeesOutcome {
   double nees3 = 0, nees6 = 0;  ///< mean over seeds and time
   double rmse_m = 0, yaw_rmse_rad = 0;
@@ -63,9 +78,9 @@ inline NeesOutcome run_nees(const NeesScenario& scenario, int seeds) {
   NeesOutcome out;
   for (int seed = 1; seed <= seeds; ++seed) {
     const TruckDrive drive(scenario.plan, static_cast<std::uint64_t>(seed));
-    TruckSensors sensors(drive, SensorErrors{}, static_cast<std::uint64_t>(1000 + seed), scenario.spacing_m,
+    TruckSensors sensors(drive, scenario.errors, static_cast<std::uint64_t>(1000 + seed), scenario.spacing_m,
                          scenario.imu_position_base);
-    PoseFilter filter{PoseFilterParams{}};
+    PoseFilter filter{scenario.params};
     std::vector<Sample> samples = run_filter(filter, drive, sensors, scenario.run);
     samples.erase(std::remove_if(samples.begin(), samples.end(),
                                  [&](const Sample& s) { return s.t_s < scenario.from_s || s.t_s > scenario.until_s; }),

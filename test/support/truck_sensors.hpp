@@ -22,11 +22,21 @@ struct SensorErrors {
   double sideslip_s2 = 0.01;  ///< slip angle by acceleration across the way, which no wheel sees
   double wheel_correlation_s = 0.05;
   double survey_m = 0.01;
-  double lens_rad = 0.0013, pixel_rad = 0.0002;
+  double lens_rad = 0.0013, pixel_rad = 0.0002, pixel_correlation_s = 0.25;
   double mount_rad = 0.002;
   double time_offset_s = 0.001;  ///< images are taken so much after their stamp
   double fix_m = 0.02, fix_rad = 0.005;
   double fix_systematic_share = 0.9;  ///< of the variance: changes with the way, over 2 m
+
+  /// Nothing that stays: what comes twice is noise anew each time.
+  static SensorErrors white() {
+    SensorErrors e;
+    e.lens_rad = 0;
+    e.pixel_rad = 0.0013;
+    e.pixel_correlation_s = e.wheel_correlation_s = 1e-6;
+    e.sideslip_s2 = 0;
+    return e;
+  }
 
   static SensorErrors none() {
     SensorErrors e;
@@ -202,8 +212,10 @@ class TruckSensors {
 
   BeaconBearing bearing(const Hall::Mark& mark, const Eigen::Vector3d& u, double dt_s) {
     auto& noise = pixel_noise_
-                      .try_emplace(mark.id, std::array<CorrelatedNoise, 2>{CorrelatedNoise(errors_.pixel_rad, 0.25),
-                                                                           CorrelatedNoise(errors_.pixel_rad, 0.25)})
+                      .try_emplace(mark.id,
+                                   std::array<CorrelatedNoise, 2>{
+                                       CorrelatedNoise(errors_.pixel_rad, errors_.pixel_correlation_s),
+                                       CorrelatedNoise(errors_.pixel_rad, errors_.pixel_correlation_s)})
                       .first->second;
     const double theta = std::acos(u.z());
     const Eigen::Vector2d image = theta * u.head<2>().normalized();

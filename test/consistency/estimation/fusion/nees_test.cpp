@@ -33,5 +33,13 @@ std::string test_name(const testing::TestParamInfo<NeesScenario>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(scenarios, Nees, testing::ValuesIn(nees_scenarios()), test_name);
 
+TEST(Nis, is_one_where_nothing_repeats) {
+  const NeesOutcome out = run_nees(white_noise(), 5);
+  std::printf("  NIS of %llu bearing axes %.3f, of wheels %.3f; NEES %.2f of 3\n",
+              static_cast<unsigned long long>(out.innovations.bearings.dof), out.innovations.bearings.mean(),
+              out.innovations.wheels.mean(), out.nees3);
+  EXPECT_NEAR(out.innovations.bearings.mean(), 1.0, 0.05);
+}
+
 }  // namespace
 }  // namespace lodestar::test
