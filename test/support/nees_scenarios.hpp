@@ -19,8 +19,8 @@ struct NeesScenario {
   double from_s = 2, until_s = 1e9;
   double spacing_m = 5;
   Eigen::Vector3d imu_position_base = Eigen::Vector3d::Zero();
-  SensorErrors errors;
-  PoseFilterParams params;
+  SensorErrors errors = {};
+  PoseFilterParams params = {};
 };
 
 inline std::vector<NeesScenario> nees_scenarios() {
@@ -60,7 +60,8 @@ inline NeesScenario white_noise() {
   scenario.errors = SensorErrors::white();
   PoseFilterParams& params = scenario.params;
   params.bearing_noise_share = 1;
-  params.bearing_common_share = params.bearing_correlation_s = params.odometry_correlation_s = 0;
+  params.bearing_common_share = params.bearing_correlation_s = 0;
+  params.odometry_correlation_s = 1e-6;
   params.lens_drift_rad_sqrt_m = params.lens_scale_drift_sqrt_m = params.lens_scale_sigma = 1e-6;
   params.sideslip_s2 = 0;
   params.vertical_velocity_sigma_m_s = 0.01;
