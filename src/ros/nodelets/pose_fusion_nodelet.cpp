@@ -64,6 +64,7 @@ void PoseFusionNodelet::read_params(ParamReader& params) {
   use_sightings_ = params.flag("use_sightings", true);
   slew_m_s_ = params.number("slew_m_s", slew_m_s_, {0, 100});
   slew_rad_s_ = radians(params.number("slew_deg_s", 10, {0, 3600}));
+  camera_time_offset_sigma_s_ = params.number("camera_time_offset_sigma_s", camera_time_offset_sigma_s_, {0, 0.1});
   fix_systematic_share_ = params.number("fix_systematic_share", fix_systematic_share_, {0, 1});
   const std::string transform = params.choice("publish_tf", "map_odom", {"map_odom", "map_base", "none"});
   transform_ = transform == "map_odom"   ? Transform::kMapOdom
@@ -74,6 +75,7 @@ void PoseFusionNodelet::read_params(ParamReader& params) {
 void PoseFusionNodelet::make_stage() {
   LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
   params.filter.fix_systematic_share = fix_systematic_share_;
+  params.filter.camera_time_offset_sigma_s = camera_time_offset_sigma_s_;
   stage_ = std::make_unique<FusionStage>(params.filter, params.calibration_sigma_px, use_sightings_);
   slew_ = std::make_unique<PoseSlew>(slew_m_s_, slew_rad_s_);
 }

@@ -37,7 +37,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
 
   double publish_rate_hz_ = 50;
   double slew_m_s_ = 0.5, slew_rad_s_ = 0.2;
-  double fix_systematic_share_ = 0.9;
+  double fix_systematic_share_ = 0.9, camera_time_offset_sigma_s_ = 0.001;
   std::string odom_frame_;
   Transform transform_ = Transform::kMapOdom;
   bool use_sightings_ = true;
