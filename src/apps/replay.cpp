@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <deque>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -16,6 +13,7 @@
 #include <vector>
 
 #include "cli/command_line.hpp"
+#include "cli/estimate_writer.hpp"
 #include "cli/progress_bar.hpp"
 #include "lodestar/line/frame_rate.hpp"
 #include "lodestar/line/localization_line.hpp"
@@ -57,29 +55,6 @@ Opening read_opening(RecordingReader& reader) {
   return opening;
 }
 
-class EstimateCsv {
- public:
-  explicit EstimateCsv(const std::string& path) : file_(path) {
-    if (!file_) throw UserError(path + ": cannot be written; choose another --out.");
-    file_ << "stamp_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,sigma_x_m,sigma_y_m,sigma_yaw_rad,beacons_used,mode\n";
-  }
-
-  void add(const StateEstimate& estimate, std::size_t beacons_used, FilterMode mode) {
-    const auto ns = estimate.stamp.time_since_epoch().count();
-    const auto& t = estimate.T_map_base.translation();
-    const auto rpy = roll_pitch_yaw(estimate.T_map_base.linear());
-    char row[320];
-    std::snprintf(row, sizeof row, "%lld.%09lld,%.6f,%.6f,%.6f,%.7f,%.7f,%.7f,%.6f,%.6f,%.7f,%zu,%s\n",
-                  static_cast<long long>(ns / 1000000000), static_cast<long long>(ns % 1000000000), t.x(), t.y(), t.z(),
-                  rpy.roll_rad, rpy.pitch_rad, rpy.yaw_rad, std::sqrt(estimate.covariance(0, 0)),
-                  std::sqrt(estimate.covariance(1, 1)), std::sqrt(estimate.covariance(5, 5)), beacons_used, name(mode));
-    file_ << row;
-  }
-
- private:
-  std::ofstream file_;
-};
-
 /// What went through, for the summary at the end.
 struct Tally {
   std::size_t frames = 0, sightings = 0, named = 0, fixes = 0, rows = 0, resets = 0, time_steps = 0;
@@ -88,7 +63,7 @@ struct Tally {
 /// Feeds the line with records and writes down what it says.
 class Replay {
  public:
-  Replay(LocalizationLine& line, const CameraMount& mount, const std::string& map_frame, EstimateCsv& csv,
+  Replay(LocalizationLine& line, const CameraMount& mount, const std::string& map_frame, EstimateWriter& csv,
          RecordingWriter* out_bag)
       : line_(line), mount_(mount), map_frame_(map_frame), csv_(csv), out_bag_(out_bag) {}
 
@@ -145,6 +120,7 @@ class Replay {
     }
     if (out_bag_) write(*outcome);
   }
+  void take(const Fix&) {}
   void take(const TruthPose&) {}
   void take(const TruthCameraPose&) {}
 
@@ -166,7 +142,7 @@ class Replay {
   CameraMount mount_;
   std::string map_frame_;
   TimeJump jump_;
-  EstimateCsv& csv_;
+  EstimateWriter& csv_;
   RecordingWriter* out_bag_;
   std::optional<OdometrySample> odometry_;
   Stamp received_;
@@ -231,7 +207,7 @@ int replay(const po::variables_map& options) {
   const Faults tones = check_tones(site, {rate_hz, vehicle.mains_hz, vehicle.window_frames}, site_path);
   if (!tones.empty()) throw UserError(describe(tones) + "Mend the file, then start again.");
 
-  EstimateCsv csv(options["out"].as<std::string>());
+  EstimateWriter csv(options["out"].as<std::string>());
   std::unique_ptr<RecordingWriter> out_bag;
   if (options.count("out-bag")) {
     RecordingWriterParams writing;

@@ -24,6 +24,7 @@ constexpr char kUsage[] =
     "Examples:\n"
     "  simulate --scenario config/scenarios/drive.yaml --out drive.bag\n"
     "  simulate --scenario config/scenarios/demo.yaml --out demo.bag --duration 30 --seed 7\n"
+    "  simulate --scenario config/scenarios/fixes.yaml --out fixes.bag\n"
     "  replay --site config/site_hall.yaml --bag drive.bag --out drive.csv\n"
     "\n"
     "The same scenario and seed give the same samples. docs/nodes/simulator.md explains every key of a scenario.\n";

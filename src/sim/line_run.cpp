@@ -1,5 +1,6 @@
 #include "lodestar/sim/line_run.hpp"
 
+#include <stdexcept>
 #include <variant>
 
 namespace lodestar::sim {
@@ -24,6 +25,7 @@ std::optional<LocalizationLine::Outcome> feed(LocalizationLine& line, const Even
 
 void run_line(const Scenario& scenario, const std::function<void(const LineStep&)>& visit) {
   constexpr double kStanding_m_s = 0.05;
+  if (!scenario.has_camera) throw std::invalid_argument(scenario.name + ": the scenario has no camera; give it one");
   Simulation simulation(scenario);
   LocalizationLine line = make_line(scenario);
   while (const auto event = simulation.next()) {

@@ -8,10 +8,10 @@
 namespace lodestar::sim {
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {{"scenario", true}, {"camera", true},    {"beacons", false}, {"ir", false},
-                                        {"imu", false},     {"odometry", false}, {"lamps", false},   {"walls", false},
-                                        {"boxes", false},   {"floor", false},    {"sway", false},    {"route", true},
-                                        {"errors", false}};
+const std::vector<YamlKey> kFileKeys = {{"scenario", true}, {"camera", false}, {"fixes", false},    {"beacons", false},
+                                        {"ir", false},      {"imu", false},    {"odometry", false}, {"lamps", false},
+                                        {"walls", false},   {"boxes", false},  {"floor", false},    {"sway", false},
+                                        {"route", true},    {"errors", false}};
 const std::vector<YamlKey> kScenarioKeys = {{"name", true},          {"site", true},     {"seed", false},
                                             {"duration_s", false},   {"start_s", false}, {"mains_hz", false},
                                             {"truth_rate_hz", false}};
@@ -36,6 +36,7 @@ Faults read_site(const Section& section, Scenario& scenario) {
   const auto site = load_site(scenario.site_path);
   if (!site) return site.error();
   scenario.site = *site;
+  if (!scenario.has_camera) return {};
   return check_tones(*site, {scenario.camera.rate_hz, scenario.mains_hz}, scenario.site_path);
 }
 

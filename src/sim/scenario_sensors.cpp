@@ -50,8 +50,16 @@ const std::vector<YamlKey> kOdometryKeys = {{"enabled", false},
                                             {"scale_error", false},
                                             {"yaw_scale_error", false},
                                             {"slip_per_m_s2", false},
+                                            {"slip_every_s", false},
+                                            {"slip_for_s", false},
+                                            {"slip_sigma", false},
                                             {"velocity_noise_m_s", false},
                                             {"yaw_rate_noise_deg_s", false}};
+
+const std::vector<YamlKey> kFixKeys = {{"rate_hz", false},   {"position_sigma_m", false},    {"yaw_sigma_deg", false},
+                                       {"latency_s", false}, {"outlier_probability", false}, {"outlier_m", false},
+                                       {"blackouts", false}};
+const std::vector<YamlKey> kBlackoutKeys = {{"from_s", true}, {"to_s", true}};
 
 struct Lens {
   const char* name;
@@ -164,14 +172,43 @@ void read_odometry(const Section& section, Scenario& scenario) {
   section.number("scale_error", within(-0.5, 0.5), odometry.scale_error);
   section.number("yaw_scale_error", within(-0.5, 0.5), odometry.yaw_scale_error);
   section.number("slip_per_m_s2", within(-0.5, 0.5), odometry.slip_per_m_s2);
+  section.number("slip_every_s", within(0, 1e6), odometry.slip_every_s);
+  section.number("slip_for_s", within(0, 100), odometry.slip_for_s);
+  section.number("slip_sigma", within(0, 2), odometry.slip_sigma);
   section.number("velocity_noise_m_s", within(0, 5), odometry.velocity_noise_m_s);
   section.degrees("yaw_rate_noise_deg_s", within(0, 50), odometry.yaw_rate_noise_rad_s);
+}
+
+void read_fixes(const Section& section, Scenario& scenario) {
+  FixSensorParams fixes;
+  section.number("rate_hz", above(0, 1000), fixes.rate_hz);
+  section.number("position_sigma_m", above(0, 100), fixes.position_sigma_m);
+  section.degrees("yaw_sigma_deg", above(0, 180), fixes.yaw_sigma_rad);
+  if (const auto latency = section.map().numbers("latency_s", 2, 2, within(0, 10))) {
+    fixes.latency_from_s = (*latency)[0].value;
+    fixes.latency_to_s = (*latency)[1].value;
+    if (fixes.latency_to_s < fixes.latency_from_s)
+      section.map().fault("latency_s", "ends before it begins: give [from, to], as [0.15, 0.3]");
+  }
+  section.number("outlier_probability", within(0, 1), fixes.outlier_probability);
+  section.number("outlier_m", within(0, 1e4), fixes.outlier_m);
+  section.each("blackouts", kBlackoutKeys, [&](const Section& item) {
+    FixSensorParams::Blackout blackout;
+    item.number("from_s", within(0, 1e7), blackout.from_s);
+    item.number("to_s", within(0, 1e7), blackout.to_s);
+    fixes.blackouts.push_back(blackout);
+  });
+  scenario.fixes = fixes;
 }
 
 }  // namespace
 
 void read_sensors(const Section& file, Scenario& scenario) {
-  read_camera(file.section("camera", kCameraKeys), scenario);
+  scenario.has_camera = file.map().has("camera");
+  if (scenario.has_camera) read_camera(file.section("camera", kCameraKeys), scenario);
+  if (file.map().has("fixes")) read_fixes(file.section("fixes", kFixKeys), scenario);
+  if (!scenario.has_camera && !scenario.fixes)
+    file.faults().add(file.map().line(), "there is neither camera nor fixes: give at least one of them");
   read_ir(file.section("ir", kIrKeys), scenario);
   read_imu(file.section("imu", kImuKeys), scenario);
   read_odometry(file.section("odometry", kOdometryKeys), scenario);

@@ -74,7 +74,8 @@ void Simulation::make_sensors() {
   CameraParams camera = scenario_.camera;
   camera.intrinsics = true_intrinsics(camera.intrinsics, errors, calibration);
   true_T_base_camera_ = true_mount(scenario_.T_base_camera, errors.mount_sigma_rad, errors.mount_sigma_m, calibration);
-  camera_ = std::make_unique<Camera>(camera, scenario_.seed);
+  if (scenario_.has_camera) camera_ = std::make_unique<Camera>(camera, scenario_.seed);
+  if (scenario_.fixes) fixes_ = std::make_unique<FixSensor>(*scenario_.fixes, scenario_.seed);
 
   if (scenario_.has_imu) {
     ImuParams imu = scenario_.imu;
@@ -90,7 +91,9 @@ void Simulation::push(double received_s, decltype(Event::data) data) {
 }
 
 double Simulation::next_due_s() const {
-  double next = std::min(camera_->next_due_s(), due(truth_count_, scenario_.truth_rate_hz));
+  double next = due(truth_count_, scenario_.truth_rate_hz);
+  if (camera_) next = std::min(next, camera_->next_due_s());
+  if (fixes_) next = std::min(next, due(fix_count_, scenario_.fixes->rate_hz));
   if (imu_) next = std::min(next, due(imu_count_, scenario_.imu.rate_hz));
   if (odometry_) next = std::min(next, due(odometry_count_, scenario_.odometry.rate_hz));
   if (ir_) next = std::min(next, static_cast<double>(slot_count_) * scenario_.site.link.slot_s);
@@ -112,7 +115,8 @@ void Simulation::sample_next() {
     ++odometry_count_;
   }
   if (ir_ && t == static_cast<double>(slot_count_) * scenario_.site.link.slot_s) hear_slot();
-  if (t == camera_->next_due_s()) take_image();
+  if (fixes_ && t == due(fix_count_, scenario_.fixes->rate_hz)) take_fix();
+  if (camera_ && t == camera_->next_due_s()) take_image();
 }
 
 void Simulation::take_image() {
@@ -127,6 +131,11 @@ void Simulation::take_image() {
   push(std::max(due_s, shot.middle_s), TrueCamera{stamp(shot.middle_s), T_map_camera(shot.middle_s)});
   push(std::max(due_s, shot.middle_s + 0.5 * scenario_.camera.exposure_s + scenario_.camera.latency_s),
        std::move(image));
+}
+
+void Simulation::take_fix() {
+  const double t = due(fix_count_++, scenario_.fixes->rate_hz);
+  if (auto reading = fixes_->sample(*truck_, t, stamp(t))) push(t + reading->latency_s, std::move(reading->fix));
 }
 
 void Simulation::hear_slot() {

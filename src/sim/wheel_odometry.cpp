@@ -10,6 +10,19 @@ constexpr double kAtRest_m_s = 1e-6;
 WheelOdometry::WheelOdometry(const WheelOdometryParams& params, std::uint64_t seed)
     : params_(params), random_(seed, "odometry") {}
 
+/// Relative error of the speed by a slip that lasts or begins now.
+double WheelOdometry::slip(double time_s) {
+  if (params_.slip_every_s <= 0) return 0;
+  if (time_s >= slip_until_s_) {
+    slip_ = 0;
+    if (random_.chance(1 / (params_.slip_every_s * params_.rate_hz))) {
+      slip_ = random_.normal(params_.slip_sigma);
+      slip_until_s_ = time_s + params_.slip_for_s;
+    }
+  }
+  return slip_;
+}
+
 OdometrySample WheelOdometry::sample(const Truck& truck, double time_s, Stamp stamp) {
   const Route::State state = truck.route().at(time_s);
   OdometrySample sample;
@@ -17,8 +30,8 @@ OdometrySample WheelOdometry::sample(const Truck& truck, double time_s, Stamp st
   const double noise_m_s = random_.normal(params_.velocity_noise_m_s);
   const double noise_rad_s = random_.normal(params_.yaw_rate_noise_rad_s);
   if (std::abs(state.speed_m_s) > kAtRest_m_s) {
-    const double slip = params_.slip_per_m_s2 * state.acceleration_m_s2;
-    sample.velocity_m_s.x() = state.speed_m_s * (1 + params_.scale_error + slip) + noise_m_s;
+    const double slipping = params_.slip_per_m_s2 * state.acceleration_m_s2 + slip(time_s);
+    sample.velocity_m_s.x() = state.speed_m_s * (1 + params_.scale_error + slipping) + noise_m_s;
     sample.yaw_rate_rad_s = state.yaw_rate_rad_s * (1 + params_.yaw_scale_error) + noise_rad_s;
   }
   if (last_) {

@@ -146,9 +146,8 @@ TEST_F(BeaconDetection, TonesThatDoNotSuitTheMeasuredRateStopTheSearch) {
   const char* const alias = "beacon_detection_alias";
   player_.send_mounts();
   player_.play(1.5);  // the first 21 images tell the frame rate
-  EXPECT_TRUE(wait_for([&] {
-    return diagnostics_.count(alias, std::string("dropped: ") + name(EdgeDrop::kTones)) >= 5;
-  }));
+  EXPECT_TRUE(
+      wait_for([&] { return diagnostics_.count(alias, std::string("dropped: ") + name(EdgeDrop::kTones)) >= 5; }));
   EXPECT_EQ(diagnostics_.level(alias), 2);
   EXPECT_NE(diagnostics_.message(alias).find("site_alias.yaml:3"), std::string::npos) << diagnostics_.message(alias);
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lodestar/BeaconSightingArray.h"
+#include "lodestar/PoseIntegrity.h"
 #include "lodestar/estimation/fusion/pose_filter.hpp"
 #include "lodestar/ros/convert/message_drop.hpp"
 #include "lodestar/ros/nodelets/edge_drop.hpp"
@@ -42,6 +43,7 @@ class PoseFusion : public testing::Test {
   Inbox<BeaconSightingArray> sightings_{nh_, "/beacons/sightings"};
   Inbox<geometry_msgs::PoseWithCovarianceStamped> poses_{nh_, "/pose"};
   Inbox<nav_msgs::Odometry> odometry_{nh_, "/odometry/filtered"};
+  Inbox<PoseIntegrity> integrity_{nh_, "/pose/integrity"};
   Diagnostics diagnostics_{nh_};
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
   ros::Publisher fix_out_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/beacons/fix", 10);
@@ -63,6 +65,15 @@ TEST_F(PoseFusion, FollowsTheTruthAndOutlivesBadInput) {
   }
   EXPECT_TRUE(wait_for([&] { return diagnostics_.value(kNode, "mode") == name(FilterMode::kTracking); }));
   EXPECT_EQ(diagnostics_.hardware_id(kNode), "truck");
+
+  // The truth lies within the protection level, and no beacon lies.
+  ASSERT_TRUE(wait_for([&] { return !integrity_.empty(); }));
+  EXPECT_EQ(integrity_.last().header.frame_id, "map");
+  EXPECT_EQ(integrity_.last().mode, PoseIntegrity::TRACKING);
+  EXPECT_GT(integrity_.last().protection_level_m, 3 * integrity_.last().sigma_major_m);
+  EXPECT_LT(offset_from_truth(player_.truth(), poses_.last()).position_m, integrity_.last().protection_level_m);
+  EXPECT_GE(integrity_.last().beacons_used, 2u);
+  EXPECT_EQ(diagnostics_.value(kNode, "beacons that lie"), "none");
 
   // The odometry of the filter is the pose with a velocity: here the truck drives.
   ASSERT_FALSE(odometry_.empty());

@@ -51,6 +51,7 @@ TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
   ASSERT_EQ(added(truck.last(), "covariance"), 1);
   ASSERT_EQ(added(truck.last(), "bearings"), 1);
   EXPECT_EQ(truck.last().markers.back().points.size(), 8u) << "four beacons, two ends each";
+  EXPECT_EQ(added(truck.last(), "protection level"), 1);
   EXPECT_GT(path.last().poses.size(), 3u);
   EXPECT_EQ(images.last().encoding, "bgr8");
   EXPECT_EQ(images.last().width, 320u);

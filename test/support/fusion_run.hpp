@@ -20,6 +20,8 @@ struct FusionRun {
   std::function<std::size_t(double t_s)> most_beacons = [](double) { return std::size_t{100}; };
   std::function<bool(double t_s)> optical = [](double) { return true; };
   std::function<double(double t_s)> slip_m_s = [](double) { return 0.0; };
+  /// What becomes of the bearings on their way to the filter.
+  std::function<void(double t_s, BeaconBearings&)> tamper = [](double, BeaconBearings&) {};
   double sample_every_s = 0.25;
   double sample_from_s = 2.0;
 };
@@ -29,7 +31,8 @@ struct Sample {
   double t_s = 0;
   FilterMode mode = FilterMode::kStarting;
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();  ///< position, rotation, as in PoseEstimate
-  double nees6 = 0, nees3 = 0;                                              ///< of all six; of x, y, yaw
+  double protection_level_m = 0;
+  double nees6 = 0, nees3 = 0;  ///< of all six; of x, y, yaw
   double horizontal_m() const { return error.head<2>().norm(); }
 };
 
@@ -75,7 +78,11 @@ inline std::vector<Sample> run_filter(
       if (run.optical(image_t_s)) {
         if (mode == FilterMode::kStarting || mode == FilterMode::kLost || run.use_fixes)
           filter.add_fix(sensors.fix(k, dt_s));
-        if (!run.use_fixes) filter.add_bearings(sensors.bearings(k, dt_s, run.most_beacons(image_t_s)));
+        if (!run.use_fixes) {
+          BeaconBearings bearings = sensors.bearings(k, dt_s, run.most_beacons(image_t_s));
+          run.tamper(image_t_s, bearings);
+          filter.add_bearings(bearings);
+        }
       }
       watch(t_s);
     }
@@ -84,6 +91,7 @@ inline std::vector<Sample> run_filter(
       Sample s = compare(*estimate, drive.T_map_base(drive.index(estimate->stamp)));
       s.t_s = t_s;
       s.mode = filter.mode();
+      s.protection_level_m = *filter.protection_level_m();
       samples.push_back(s);
     }
   }

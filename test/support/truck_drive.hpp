@@ -61,6 +61,14 @@ class TruckDrive {
     T.linear() = rotation_[i];
     return T;
   }
+  /// A little (a few samples at most) before or after sample i.
+  RigidTransform T_map_base(std::size_t i, double after_s) const {
+    RigidTransform T = T_map_base(i);
+    if (after_s == 0) return T;
+    T.translation() += after_s * T.linear() * velocity_base(i);
+    T.linear() *= so3_exp(after_s * angular_velocity(i));
+    return T;
+  }
   std::size_t index(Stamp stamp) const {
     return static_cast<std::size_t>(std::llround(seconds(stamp - TruckDrive::stamp(0)) * kRate_hz));
   }

@@ -16,23 +16,34 @@ namespace lodestar::test {
 
 /// One sigma of each error. All zero: perfect sensors.
 struct SensorErrors {
-  double gyro_noise_rad_s = 0.002, gyro_bias_rad_s = 0.005, gyro_scale = 0.001;
+  double gyro_noise_rad_s = 0.002, gyro_bias_rad_s = 0.005, gyro_scale = 0.001, gyro_axis_rad = 0.001;
   double accelerometer_noise_m_s2 = 0.05, accelerometer_bias_m_s2 = 0.05;
   double wheel_noise_m_s = 0.03, wheel_scale = 0.02, yaw_rate_noise_rad_s = 0.01;
   double sideslip_s2 = 0.01;  ///< slip angle by acceleration across the way, which no wheel sees
   double wheel_correlation_s = 0.05;
   double survey_m = 0.01;
-  double lens_rad = 0.0013, pixel_rad = 0.0002;
+  double lens_rad = 0.0013, pixel_rad = 0.0002, pixel_correlation_s = 0.25;
   double mount_rad = 0.002;
+  double time_offset_s = 0.001;  ///< images are taken so much after their stamp
   double fix_m = 0.02, fix_rad = 0.005;
   double fix_systematic_share = 0.9;  ///< of the variance: changes with the way, over 2 m
+
+  /// Nothing that stays: what comes twice is noise anew each time.
+  static SensorErrors white() {
+    SensorErrors e;
+    e.lens_rad = 0;
+    e.pixel_rad = 0.0013;
+    e.pixel_correlation_s = e.wheel_correlation_s = 1e-6;
+    e.sideslip_s2 = 0;
+    return e;
+  }
 
   static SensorErrors none() {
     SensorErrors e;
     for (double* sigma :
-         {&e.gyro_noise_rad_s, &e.gyro_bias_rad_s, &e.gyro_scale, &e.accelerometer_noise_m_s2,
-          &e.accelerometer_bias_m_s2, &e.wheel_noise_m_s, &e.wheel_scale, &e.sideslip_s2, &e.yaw_rate_noise_rad_s,
-          &e.survey_m, &e.lens_rad, &e.pixel_rad, &e.mount_rad, &e.fix_m, &e.fix_rad})
+         {&e.gyro_noise_rad_s, &e.gyro_bias_rad_s, &e.gyro_scale, &e.gyro_axis_rad, &e.time_offset_s,
+          &e.accelerometer_noise_m_s2, &e.accelerometer_bias_m_s2, &e.wheel_noise_m_s, &e.wheel_scale, &e.sideslip_s2,
+          &e.yaw_rate_noise_rad_s, &e.survey_m, &e.lens_rad, &e.pixel_rad, &e.mount_rad, &e.fix_m, &e.fix_rad})
       *sigma = 0;
     return e;
   }
@@ -116,6 +127,8 @@ class TruckSensors {
     gyro_bias_ = errors.gyro_bias_rad_s * normal3();
     accelerometer_bias_ = errors.accelerometer_bias_m_s2 * normal3();
     gyro_scale_ = Eigen::Vector3d::Ones() + errors.gyro_scale * normal3();
+    R_gyro_base_ = so3_exp(errors.gyro_axis_rad * normal3());
+    time_offset_s_ = errors.time_offset_s * normal();
     wheel_scale_ = errors.wheel_scale * normal();
     sideslip_s2_ = errors.sideslip_s2 * normal();
     yaw_rate_scale_ = errors.wheel_scale * normal();
@@ -124,14 +137,18 @@ class TruckSensors {
     true_mount_ = so3_exp(errors.mount_rad * normal3());
   }
 
+  /// Hangs a beacon elsewhere than surveyed, or shows it there in a mirror.
+  void move_beacon(std::size_t index, const Eigen::Vector3d& shift) { hall_.marks.at(index).true_position += shift; }
+  const Hall& hall() const { return hall_; }
+
   const RigidTransform& T_base_camera() const { return T_base_camera_; }
   const Eigen::Vector3d& imu_position_base() const { return imu_position_base_; }
 
   ImuSample imu(std::size_t i) {
     ImuSample s;
     s.stamp = drive_.stamp(i);
-    s.angular_velocity_rad_s =
-        drive_.angular_velocity(i).cwiseProduct(gyro_scale_) + gyro_bias_ + errors_.gyro_noise_rad_s * normal3();
+    s.angular_velocity_rad_s = (R_gyro_base_ * drive_.angular_velocity(i)).cwiseProduct(gyro_scale_) + gyro_bias_ +
+                               errors_.gyro_noise_rad_s * normal3();
     s.specific_force_m_s2 = drive_.specific_force(i, imu_position_base_) + accelerometer_bias_ +
                             errors_.accelerometer_noise_m_s2 * normal3();
     return s;
@@ -156,7 +173,7 @@ class TruckSensors {
   BeaconBearings bearings(std::size_t i, double dt_s, std::size_t most = 100) {
     BeaconBearings out;
     out.stamp = drive_.stamp(i);
-    const RigidTransform T_map_base = drive_.T_map_base(i);
+    const RigidTransform T_map_base = drive_.T_map_base(i, time_offset_s_);
     for (const Hall::Mark& mark : hall_.marks) {
       const Eigen::Vector3d in_base = T_map_base.inverse() * mark.true_position - T_base_camera_.translation();
       const Eigen::Vector3d u =
@@ -195,8 +212,10 @@ class TruckSensors {
 
   BeaconBearing bearing(const Hall::Mark& mark, const Eigen::Vector3d& u, double dt_s) {
     auto& noise = pixel_noise_
-                      .try_emplace(mark.id, std::array<CorrelatedNoise, 2>{CorrelatedNoise(errors_.pixel_rad, 0.25),
-                                                                           CorrelatedNoise(errors_.pixel_rad, 0.25)})
+                      .try_emplace(mark.id,
+                                   std::array<CorrelatedNoise, 2>{
+                                       CorrelatedNoise(errors_.pixel_rad, errors_.pixel_correlation_s),
+                                       CorrelatedNoise(errors_.pixel_rad, errors_.pixel_correlation_s)})
                       .first->second;
     const double theta = std::acos(u.z());
     const Eigen::Vector2d image = theta * u.head<2>().normalized();
@@ -224,7 +243,8 @@ class TruckSensors {
   LensError lens_;
   CorrelatedNoise speed_noise_, side_noise_, yaw_rate_noise_;
   Eigen::Vector3d gyro_bias_, gyro_scale_, accelerometer_bias_;
-  double wheel_scale_, sideslip_s2_, yaw_rate_scale_;
+  Eigen::Matrix3d R_gyro_base_;
+  double wheel_scale_, sideslip_s2_, yaw_rate_scale_, time_offset_s_;
   RigidTransform T_base_camera_ = RigidTransform::Identity();
   Eigen::Matrix3d true_mount_;
   std::map<BeaconId, std::array<CorrelatedNoise, 2>> pixel_noise_;

@@ -66,7 +66,13 @@ refused 2 "site" "$bin/replay" --bag drive.bag --out e.csv
 sed 's/^\([0-9.]*\),[^,]*/\1,nan/' drive.csv >nan.csv
 refused 1 "nan.csv:2" "$bin/evaluate" --truth drive.bag --estimate nan.csv
 refused 1 "duration" "$bin/accuracy" --scenario "$source/test/ros/scenario.yaml" --duration nan
-for tool in simulate replay evaluate paper_experiment accuracy plan_codes; do
+"$bin/simulate" --scenario "$source/config/scenarios/fixes.yaml" --out fixes.bag --duration 20
+"$bin/fuse" --bag fixes.bag --out fixes.csv
+"$bin/evaluate" --truth fixes.bag --estimate fixes.csv --json fixes.json
+/usr/bin/python3 -c 'import json; r = json.load(open("fixes.json"))["all"]; assert r["samples"] > 900 and r["position"]["rmse_m"] < 0.05, r'
+refused 1 "beacons/fix" "$bin/fuse" --bag drive.bag --out e.csv
+refused 1 "no camera" "$bin/accuracy" --scenario "$source/config/scenarios/fixes.yaml" --seeds 1
+for tool in simulate replay fuse evaluate paper_experiment accuracy plan_codes; do
   "$bin/$tool" --help | grep -q "Examples:" || fail "$tool --help has no examples"
 done
 echo "all tools do as they say"

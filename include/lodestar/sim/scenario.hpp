@@ -11,6 +11,7 @@
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/sim/beacon_light.hpp"
 #include "lodestar/sim/camera.hpp"
+#include "lodestar/sim/fix_sensor.hpp"
 #include "lodestar/sim/floor.hpp"
 #include "lodestar/sim/imu.hpp"
 #include "lodestar/sim/ir_receiver.hpp"
@@ -47,9 +48,10 @@ struct Scenario {
   RigidTransform T_base_camera = RigidTransform::Identity();
   BeaconLightParams beacons;
   IrReceiverParams ir;
-  bool has_ir = true, has_imu = true, has_odometry = true;
+  bool has_camera = true, has_ir = true, has_imu = true, has_odometry = true;
   ImuParams imu;
   WheelOdometryParams odometry;
+  std::optional<FixSensorParams> fixes;  ///< beside the camera, or instead of it
   double truth_rate_hz = 100;
   std::uint32_t first_superframe = 1000;
 

@@ -10,6 +10,7 @@
 #include "lodestar/base/measurement/ir_frame.hpp"
 #include "lodestar/base/measurement/motion.hpp"
 #include "lodestar/sim/camera.hpp"
+#include "lodestar/sim/fix_sensor.hpp"
 #include "lodestar/sim/imu.hpp"
 #include "lodestar/sim/ir_receiver.hpp"
 #include "lodestar/sim/scenario.hpp"
@@ -33,7 +34,7 @@ struct TrueCamera {
 /// One sample and when it reaches the computer.
 struct Event {
   Stamp received;
-  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera> data;
+  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix> data;
 };
 
 /// A whole run of a scenario: what the sensors say, in the order of reception. The same seed gives the same run, bit by
@@ -52,6 +53,7 @@ class Simulation {
   /// @name What is true, for tests and evaluation. Times in s since the start.
   /// @{
   const std::vector<Beacon>& true_beacons() const { return true_beacons_; }
+  /// Only where the scenario has a camera.
   const CameraModel& true_camera() const { return camera_->model(); }
   const RigidTransform& true_T_base_camera() const { return true_T_base_camera_; }
   const Truck& truck() const { return *truck_; }
@@ -69,6 +71,7 @@ class Simulation {
   double next_due_s() const;
   void sample_next();
   void take_image();
+  void take_fix();
   void hear_slot();
 
   Scenario scenario_;
@@ -81,7 +84,8 @@ class Simulation {
   std::unique_ptr<Imu> imu_;
   std::unique_ptr<WheelOdometry> odometry_;
   std::unique_ptr<IrReceiver> ir_;
-  std::uint64_t imu_count_ = 0, odometry_count_ = 0, slot_count_ = 0, truth_count_ = 0;
+  std::unique_ptr<FixSensor> fixes_;
+  std::uint64_t imu_count_ = 0, odometry_count_ = 0, slot_count_ = 0, fix_count_ = 0, truth_count_ = 0;
   std::uint64_t sequence_ = 0;
   std::priority_queue<std::pair<Event, std::uint64_t>, std::vector<std::pair<Event, std::uint64_t>>, Later> pending_;
 };

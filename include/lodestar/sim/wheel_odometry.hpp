@@ -14,6 +14,9 @@ struct WheelOdometryParams {
   double scale_error = 0;            ///< of the speed, relative (wheel radius)
   double yaw_scale_error = 0;        ///< of the yaw rate, relative (track)
   double slip_per_m_s2 = 0;          ///< relative error of the speed for 1 m/s^2 of acceleration
+  double slip_every_s = 0;           ///< mean time between slips while driving; 0: none
+  double slip_for_s = 0.5;           ///< how long each lasts
+  double slip_sigma = 0.3;           ///< relative error of the speed in a slip
   double velocity_noise_m_s = 0.01;  ///< white, each sample, while the wheels turn
   double yaw_rate_noise_rad_s = 0.003;
 };
@@ -25,8 +28,11 @@ class WheelOdometry {
   OdometrySample sample(const Truck& truck, double time_s, Stamp stamp);
 
  private:
+  double slip(double time_s);
+
   WheelOdometryParams params_;
   Random random_;
+  double slip_ = 0, slip_until_s_ = 0;
   std::optional<OdometrySample> last_;
 };
 

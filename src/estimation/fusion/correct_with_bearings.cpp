@@ -6,6 +6,7 @@
 #include "lodestar/estimation/fusion/corrections.hpp"
 #include "lodestar/estimation/fusion/mm_bearing.hpp"
 #include "lodestar/estimation/fusion/optical_health.hpp"
+#include "lodestar/estimation/fusion/propagation.hpp"
 #include "lodestar/estimation/fusion/source_offsets.hpp"
 
 namespace lodestar::fusion {
@@ -79,8 +80,8 @@ std::optional<int> offset_of(FilterState& state, const BeaconBearing& bearing, c
 
 std::optional<Innovation<2>> innovation(const FilterState& state, const Candidate& candidate, const Rig& rig,
                                         const PoseFilterParams& params) {
-  return bearing_innovation(state, *candidate.bearing, state.offsets[candidate.offset].value, candidate.offset, rig,
-                            params.bearing_noise_share);
+  return bearing_innovation(state, *candidate.bearing, state.offsets[candidate.offset].value, candidate.offset,
+                            angular_velocity(state, params), rig, params.bearing_noise_share);
 }
 
 double distance2(const FilterState& state, const Candidate& candidate, const Rig& rig, const PoseFilterParams& params) {
@@ -96,10 +97,16 @@ double noise_inflation(const FilterState& state, const SourceOffset& offset, con
 }
 
 bool use(FilterState& state, const Candidate& candidate, const Rig& rig, const Gates& gates,
-         const PoseFilterParams& params) {
+         const PoseFilterParams& params, InnovationMeans& innovations) {
   auto m = innovation(state, candidate, rig, params);
-  if (!m || squared_distance(state.P, *m) > gates.chi2_2) return false;
   SourceOffset& offset = state.offsets[candidate.offset];
+  const double distance2 = m ? squared_distance(state.P, *m) : std::numeric_limits<double>::infinity();
+  if (distance2 > gates.chi2_2) {
+    ++offset.gated;
+    return false;
+  }
+  innovations.bearings.add(distance2, 2);
+  offset.gated = 0;
   m->inflation = noise_inflation(state, offset, params);
   correct(state, *m);
   offset.last_used = state.stamp;
@@ -109,13 +116,15 @@ bool use(FilterState& state, const Candidate& candidate, const Rig& rig, const G
 }  // namespace
 
 Tally correct_with_bearings(FilterState& state, const BeaconBearings& bearings, const Rig& rig, const Gates& gates,
-                            const PoseFilterParams& params) {
+                            const IntegrityFactors& integrity, const PoseFilterParams& params) {
   Tally tally;
   Candidates candidates;
   int count = 0;
   for (const BeaconBearing& bearing : bearings.bearings) {
     const std::optional<int> offset = offset_of(state, bearing, rig, params);
-    if (offset && count < kMaxOffsets)
+    if (offset && state.offsets[*offset].excluded)
+      ++tally.excluded;
+    else if (offset && count < kMaxOffsets)
       candidates[static_cast<std::size_t>(count++)] = {&bearing, *offset, 0};
     else
       ++tally.crowded;
@@ -131,8 +140,10 @@ Tally correct_with_bearings(FilterState& state, const BeaconBearings& bearings, 
     tally.gated = count;
     return tally;
   }
-  for (auto c = begin; c != end; ++c) ++(use(state, *c, rig, gates, params) ? tally.used : tally.gated);
+  for (auto c = begin; c != end; ++c)
+    ++(use(state, *c, rig, gates, params, tally.innovations) ? tally.used : tally.gated);
   note_accepted(state);
+  exclude_liars(state, integrity);
   return tally;
 }
 

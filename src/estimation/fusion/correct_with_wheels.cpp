@@ -23,18 +23,25 @@ bool stands(const FilterState& state, const PoseFilterParams& params) {
          (!imu_heard(state, params) || state.inputs.gyro_moved < quiet_since);
 }
 
-/// Gated; a state that has contradicted the wheels for too long is widened until it listens.
-bool use(FilterState& state, const Innovation<3>& m, const Gates& gates) {
+/// Gated; a state that has contradicted the wheels for too long, and no beacon has borne it out, is widened until it
+/// listens.
+Tally use(FilterState& state, const Innovation<3>& m, const Gates& gates) {
+  Tally tally;
   std::optional<Stamp>& since = state.health.wheels_rejected_since;
-  if (squared_distance(state.P, m) <= gates.chi2_3) {
+  const double distance2 = squared_distance(state.P, m);
+  if (distance2 <= gates.chi2_3) {
     correct(state, m);
     since.reset();
-    return true;
+    tally.used = 1;
+    tally.innovations.wheels.add(distance2, 3);
+    return tally;
   }
+  tally.gated = 1;
   if (!since) since = state.stamp;
-  if (seconds(state.stamp - *since) > kLongestSlip_s)
+  const bool seen_since = state.health.last_optical > *since;  // the beacons say that it is the wheels
+  if (!seen_since && seconds(state.stamp - *since) > kLongestSlip_s)
     state.P.diagonal().segment<3>(kVelocity).array() += kWidenVelocity_m_s * kWidenVelocity_m_s;
-  return false;
+  return tally;
 }
 
 }  // namespace
@@ -58,19 +65,17 @@ Tally correct_with_wheels(FilterState& state, const OdometrySample& sample, cons
   const Eigen::Vector3d angular_velocity =
       imu ? state.inputs.angular_velocity_rad_s
           : Eigen::Vector3d(state.gyro_bias + Eigen::Vector3d(0, 0, sample.yaw_rate_rad_s));
-  bool used = false;
-  if (stands(state, params)) {
-    used = use(state, standing_velocity_innovation(state), gates);
-    if (used && imu) {
-      const Innovation<3> gyro = standing_gyro_innovation(state, angular_velocity, params);
-      if (squared_distance(state.P, gyro) <= gates.chi2_3) correct(state, gyro);
-    }
-  } else {
+  if (!stands(state, params)) {
     Innovation<3> wheels = wheels_innovation(state, sample, angular_velocity, rig, params);
     wheels.inflation = std::max(1.0, params.odometry_correlation_s / state.inputs.wheels_interval_s);
-    used = use(state, wheels, gates);
+    return use(state, wheels, gates);
   }
-  return used ? Tally{1, 0, 0} : Tally{0, 1, 0};
+  const Tally tally = use(state, standing_velocity_innovation(state), gates);
+  if (tally.used > 0 && imu) {
+    const Innovation<3> gyro = standing_gyro_innovation(state, angular_velocity, params);
+    if (squared_distance(state.P, gyro) <= gates.chi2_3) correct(state, gyro);
+  }
+  return tally;
 }
 
 }  // namespace lodestar::fusion

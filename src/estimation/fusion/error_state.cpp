@@ -25,7 +25,9 @@ CoreState boxplus(const CoreState& x, const CoreError& e) {
   y.accelerometer_bias += e.segment<3>(kAccelerometerBias);
   y.wheel_scale += e[kWheelScale];
   y.yaw_rate_scale += e[kYawRateScale];
+  y.gyro_scale += e[kGyroScale];
   y.lens_scale += e[kLensScale];
+  y.time_offset_s += e[kTimeOffset];
   y.q_mount = (exp_quaternion(e.segment<3>(kMount)) * x.q_mount).normalized();
   return y;
 }
@@ -39,7 +41,9 @@ CoreError boxminus(const CoreState& x2, const CoreState& x1) {
   e.segment<3>(kAccelerometerBias) = x2.accelerometer_bias - x1.accelerometer_bias;
   e[kWheelScale] = x2.wheel_scale - x1.wheel_scale;
   e[kYawRateScale] = x2.yaw_rate_scale - x1.yaw_rate_scale;
+  e[kGyroScale] = x2.gyro_scale - x1.gyro_scale;
   e[kLensScale] = x2.lens_scale - x1.lens_scale;
+  e[kTimeOffset] = x2.time_offset_s - x1.time_offset_s;
   e.segment<3>(kMount) = so3_log((x2.q_mount * x1.q_mount.conjugate()).toRotationMatrix());
   return e;
 }

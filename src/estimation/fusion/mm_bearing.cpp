@@ -23,6 +23,15 @@ Eigen::Vector3d away_from_axis(const Eigen::Vector3d& direction) {
   return std::atan2(sine, direction.z()) / sine * across;
 }
 
+/// The state at the instant that the image was really taken.
+CoreState at_exposure(const CoreState& at_stamp, const Eigen::Vector3d& angular_velocity_rad_s) {
+  if (at_stamp.time_offset_s == 0) return at_stamp;
+  CoreState x = at_stamp;
+  x.position += x.time_offset_s * x.velocity;
+  x.q_map_base = x.q_map_base * Eigen::Quaterniond(so3_exp(x.time_offset_s * angular_velocity_rad_s));
+  return x;
+}
+
 }  // namespace
 
 Eigen::Vector3d beacon_in_camera(const CoreState& x, const Eigen::Vector3d& beacon_map, const Rig& rig) {
@@ -35,9 +44,11 @@ Eigen::Vector3d without_lens_scale(const Eigen::Vector3d& direction, double scal
   return so3_exp(-scale / (1.0 + scale) * away_from_axis(direction)) * direction;
 }
 
-std::optional<Innovation<2>> bearing_innovation(const CoreState& x, const BeaconBearing& bearing,
-                                                const Eigen::Vector3d& offset_map, int offset_index, const Rig& rig,
+std::optional<Innovation<2>> bearing_innovation(const CoreState& at_stamp, const BeaconBearing& bearing,
+                                                const Eigen::Vector3d& offset_map, int offset_index,
+                                                const Eigen::Vector3d& angular_velocity_rad_s, const Rig& rig,
                                                 double white_share) {
+  const CoreState x = at_exposure(at_stamp, angular_velocity_rad_s);
   const Eigen::Vector3d beacon = bearing.position_map + offset_map;
   const Eigen::Vector3d in_camera = beacon_in_camera(x, beacon, rig);
   const double distance = in_camera.norm();
@@ -58,6 +69,8 @@ std::optional<Innovation<2>> bearing_innovation(const CoreState& x, const Beacon
   m.residual = B.transpose() * measured;
   m.H.block<2, 3>(0, kPosition) = -by_map;
   m.H.block<2, 3>(0, kRotation) = by_map * skew(beacon - x.position);
+  m.H.block<2, 3>(0, kVelocity) = -x.time_offset_s * by_map;
+  m.H.col(kTimeOffset) = -by_map * x.velocity + m.H.block<2, 3>(0, kRotation) * (x.q_map_base * angular_velocity_rad_s);
   m.H.block<2, 3>(0, kMount) = by_base * skew(camera_to_beacon_base);
   m.H.col(kLensScale) = B.transpose() * away_from_axis(measured).cross(measured) / (1.0 + x.lens_scale);
   m.offset_count = 1;

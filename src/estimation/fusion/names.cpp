@@ -32,6 +32,8 @@ const char* name(FilterDrop reason) {
       return "not started";
     case FilterDrop::kCrowded:
       return "no room";
+    case FilterDrop::kExcluded:
+      return "beacon excluded";
     case FilterDrop::kCount:
       break;
   }

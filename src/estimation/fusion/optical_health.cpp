@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lodestar/estimation/fusion/integrity.hpp"
+
 namespace lodestar::fusion {
 namespace {
 
@@ -25,6 +27,7 @@ void note_rejected(FilterState& state, const PoseFilterParams& params) {
   ++health.rejected;
   const double run_s = seconds(state.stamp - *health.rejected_since);
   if (run_s < kPatience * params.lost_after_s) return;
+  doubt_clock(state);  // all beacons at once: the vehicle is elsewhere, or was there at another time
   const double interval_s = std::min(run_s / health.rejected, kLongestInterval_s);
   const double position = kWidenPosition_m_sqrt_s * kWidenPosition_m_sqrt_s * interval_s;
   const double rotation = kWidenRotation_rad_sqrt_s * kWidenRotation_rad_sqrt_s * interval_s;

@@ -36,7 +36,8 @@ fusion::Gates::Gates(double probability)
       chi2_3(chi_square_quantile(probability, 3)),
       chi2_4(chi_square_quantile(probability, 4)) {}
 
-PoseFilter::PoseFilter(const PoseFilterParams& params) : params_(params), gates_(params.gate_probability) {}
+PoseFilter::PoseFilter(const PoseFilterParams& params)
+    : params_(params), gates_(params.gate_probability), integrity_(params) {}
 
 void PoseFilter::set_camera(const RigidTransform& T_base_camera) { rig_.T_base_camera = T_base_camera; }
 
@@ -121,10 +122,13 @@ std::optional<FilterDrop> PoseFilter::process(std::size_t first) {
   const Tally tally = run(first);
   for (int i = 0; i < tally.gated; ++i) drops_.add(FilterDrop::kGated);
   for (int i = 0; i < tally.crowded; ++i) drops_.add(FilterDrop::kCrowded);
+  for (int i = 0; i < tally.excluded; ++i) drops_.add(FilterDrop::kExcluded);
+  innovations_.add(tally.innovations);
   judge();
   buffer_.drop_before(buffer_.back().stamp - from_seconds(params_.buffer_s));
-  if (tally.used > 0 || tally.gated + tally.crowded == 0) return std::nullopt;
-  return tally.gated > 0 ? FilterDrop::kGated : FilterDrop::kCrowded;
+  if (tally.used > 0 || tally.gated + tally.crowded + tally.excluded == 0) return std::nullopt;
+  if (tally.gated > 0) return FilterDrop::kGated;
+  return tally.crowded > 0 ? FilterDrop::kCrowded : FilterDrop::kExcluded;
 }
 
 /// Works through the entries from `first` on: a late event changes all states behind it.
@@ -153,7 +157,7 @@ Tally PoseFilter::apply(FilterState& state, std::size_t i) const {
   else if (const auto* wheels = std::get_if<OdometrySample>(&entry.event))
     tally = fusion::correct_with_wheels(state, *wheels, rig_, gates_, params_);
   else if (const auto* bearings = std::get_if<BeaconBearings>(&entry.event))
-    tally = fusion::correct_with_bearings(state, *bearings, rig_, gates_, params_);
+    tally = fusion::correct_with_bearings(state, *bearings, rig_, gates_, integrity_, params_);
   else if (const auto* fix = std::get_if<Fix>(&entry.event))
     tally = fusion::correct_with_fix(state, *fix, rig_, gates_, params_);
   fusion::symmetrize(state.P);
@@ -172,13 +176,36 @@ void PoseFilter::judge() {
 
 bool PoseFilter::started() const { return !buffer_.empty() && buffer_.back().state; }
 
-std::optional<StateEstimate> PoseFilter::estimate() const {
-  if (!started()) return std::nullopt;
+/// The state that estimate() is made of; null: not started.
+const FilterState* PoseFilter::newest() const {
+  if (!started()) return nullptr;
   const std::optional<std::size_t> motion = buffer_.newest_motion();
   const bool fresh =
       motion && buffer_[*motion].state && seconds(buffer_.back().stamp - buffer_[*motion].stamp) <= params_.imu_hold_s;
-  const StateBuffer::Entry& entry = fresh ? buffer_[*motion] : buffer_.back();
-  return fusion::as_estimate(*entry.state, rig_, params_);
+  return (fresh ? buffer_[*motion] : buffer_.back()).state.get();
+}
+
+std::optional<StateEstimate> PoseFilter::estimate() const {
+  const FilterState* state = newest();
+  if (state == nullptr) return std::nullopt;
+  return fusion::as_estimate(*state, rig_, params_);
+}
+
+std::optional<double> PoseFilter::protection_level_m() const {
+  const FilterState* state = newest();
+  if (state == nullptr) return std::nullopt;
+  return fusion::protection_level_m(*state, rig_, integrity_);
+}
+
+std::vector<BeaconCheck> PoseFilter::beacon_checks() const {
+  const FilterState* state = newest();
+  return state != nullptr ? fusion::check_beacons(*state) : std::vector<BeaconCheck>{};
+}
+
+std::optional<double> PoseFilter::camera_time_offset_s() const {
+  const FilterState* state = newest();
+  if (state == nullptr) return std::nullopt;
+  return state->time_offset_s;
 }
 
 std::optional<StateEstimate> PoseFilter::estimate_at(Stamp stamp) const {

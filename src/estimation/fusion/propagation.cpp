@@ -12,6 +12,16 @@ constexpr double kMaxStep_s = 0.05;            ///< the Jacobians are of second 
 constexpr double kUnknownYawRate_rad_s = 0.3;  ///< a truck of which nothing is heard
 constexpr double kWheelsHold_s = 0.5;          ///< wheel speed is good for so long
 
+/// The time offset forgets, so that a clock that goes wrong later is noticed too: a Gauss-Markov process.
+void relax_time_offset(FilterState& state, double dt_s, const PoseFilterParams& params) {
+  if (state.time_offset_prior_s2 == 0) return;
+  const double keep = std::exp(-dt_s / params.camera_time_offset_correlation_s);
+  state.P.row(kTimeOffset) *= keep;
+  state.P.col(kTimeOffset) *= keep;
+  state.P(kTimeOffset, kTimeOffset) += (1.0 - keep * keep) * state.time_offset_prior_s2;
+  state.time_offset_s *= keep;
+}
+
 void spread(FilterState& state, const Transition& step, double dt_s, const PoseFilterParams& params) {
   Covariance& P = state.P;
   const Eigen::Matrix<double, kStepWrites, Eigen::Dynamic, 0, kStepWrites, kMaxSize> rows =
@@ -31,6 +41,7 @@ void spread(FilterState& state, const Transition& step, double dt_s, const PoseF
   const double root_speed = std::sqrt(state.velocity.head<2>().norm());
   walk(kMount, 3, std::hypot(params.mount_drift_rad_sqrt_s, params.lens_drift_rad_sqrt_m * root_speed));
   walk(kLensScale, 1, params.lens_scale_drift_sqrt_m * root_speed);
+  relax_time_offset(state, dt_s, params);
 }
 
 /// Right Jacobian of SO(3), to the order that a step of some milliseconds needs.
@@ -43,18 +54,14 @@ Eigen::Quaterniond turn(const Eigen::Vector3d& phi) { return Eigen::Quaterniond(
 
 InertialNoise inertial_noise(const FilterState& state, const PoseFilterParams& params) {
   const double interval = state.inputs.imu_interval_s;
-  constexpr double kTurn_s = 2.0;  // a scale error acts over a turn, not over a sample
-  const Eigen::Vector3d rate = state.inputs.angular_velocity_rad_s - state.gyro_bias;
+  constexpr double kTurn_s = 2.0;  // a crooked axis acts over a turn, not over a sample
+  const double turning = params.gyro_axis_sigma_rad * (state.inputs.angular_velocity_rad_s - state.gyro_bias).z();
   const double gyro = params.gyro_noise_rad_s, accelerometer = params.accelerometer_noise_m_s2;
   InertialNoise noise;
-  noise.gyro_rad2_s = (params.gyro_scale_sigma * rate).cwiseAbs2() * kTurn_s;
+  noise.gyro_rad2_s << kTurn_s * turning * turning, kTurn_s * turning * turning, 0;
   noise.gyro_rad2_s.array() += gyro * gyro * interval;
   noise.accelerometer_m2_s3 = accelerometer * accelerometer * interval;
   return noise;
-}
-
-bool wheels_heard(const FilterState& state) {
-  return state.inputs.wheels && seconds(state.stamp - state.inputs.wheels->stamp) < kWheelsHold_s;
 }
 
 PlanarNoise planar_noise(const FilterState& state, double dt_s, const PoseFilterParams& params) {
@@ -123,9 +130,22 @@ Stamp inertial_until(const FilterState& state, Stamp to, const ImuSample* next, 
 
 }  // namespace
 
+bool wheels_heard(const FilterState& state) {
+  return state.inputs.wheels && seconds(state.stamp - state.inputs.wheels->stamp) < kWheelsHold_s;
+}
+
+Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params) {
+  const Inputs& in = state.inputs;
+  if (in.imu_stamp && seconds(state.stamp - *in.imu_stamp) <= params.imu_hold_s)
+    return in.angular_velocity_rad_s - state.gyro_bias;
+  if (wheels_heard(state)) return {0, 0, in.wheels->yaw_rate_rad_s / (1.0 + state.yaw_rate_scale)};
+  return Eigen::Vector3d::Zero();
+}
+
 Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_rad_s,
                          const Eigen::Vector3d& specific_force_m_s2, double dt_s, const InertialNoise& noise) {
-  const Eigen::Vector3d phi = (angular_velocity_rad_s - x.gyro_bias) * dt_s;
+  const Eigen::Vector3d gain(1.0, 1.0, 1.0 / (1.0 + x.gyro_scale));
+  const Eigen::Vector3d phi = gain.cwiseProduct(angular_velocity_rad_s - x.gyro_bias) * dt_s;
   const Eigen::Matrix3d R_middle = (x.q_map_base * turn(0.5 * phi)).toRotationMatrix();
   const Eigen::Vector3d force = R_middle * (specific_force_m_s2 - x.accelerometer_bias);
   const Eigen::Vector3d acceleration = force - Eigen::Vector3d(0, 0, kGravity_m_s2);
@@ -135,7 +155,8 @@ Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_r
 
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d by_rotation = -skew(force);
-  const Eigen::Matrix3d by_gyro_bias = 0.5 * dt_s * skew(force) * R_middle;
+  const Eigen::Matrix3d by_turn = skew(force) * R_middle;  // of half the step
+  const Eigen::Vector3d turn_by_scale(0, 0, -gain.z() * phi.z());
   Transition step;
   auto& F = step.F;
   F.block<3, 3>(kPosition, kPosition) = I;
@@ -144,12 +165,15 @@ Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_r
   F.block<3, 3>(kRotation, kRotation) = I;
   const auto by_acceleration = [&](int row, double factor) {
     F.block<3, 3>(row, kRotation) = factor * by_rotation;
-    F.block<3, 3>(row, kGyroBias) = factor * by_gyro_bias;
+    F.block<3, 3>(row, kGyroBias) = factor * 0.5 * dt_s * by_turn * gain.asDiagonal();
+    F.block<3, 1>(row, kGyroScale) = -factor * 0.5 * by_turn * turn_by_scale;
     F.block<3, 3>(row, kAccelerometerBias) = -factor * R_middle;
   };
   by_acceleration(kPosition, 0.5 * dt_s * dt_s);
   by_acceleration(kVelocity, dt_s);
-  F.block<3, 3>(kRotation, kGyroBias) = -dt_s * x.q_map_base.toRotationMatrix() * right_jacobian(phi);
+  const Eigen::Matrix3d rotation_by_turn = x.q_map_base.toRotationMatrix() * right_jacobian(phi);
+  F.block<3, 3>(kRotation, kGyroBias) = -dt_s * rotation_by_turn * gain.asDiagonal();
+  F.block<3, 1>(kRotation, kGyroScale) = rotation_by_turn * turn_by_scale;
 
   const double a = noise.accelerometer_m2_s3;
   step.Q.block<3, 3>(kPosition, kPosition) = a * dt_s * dt_s * dt_s / 3.0 * I;

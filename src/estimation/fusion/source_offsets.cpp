@@ -44,8 +44,12 @@ void restart_offset(FilterState& state, int index, const Eigen::Matrix3d& prior)
   state.P.middleRows<3>(at).setZero();
   state.P.middleCols<3>(at).setZero();
   state.P.block<3, 3>(at, at) = prior;
-  state.offsets[index].value.setZero();
-  state.offsets[index].last_used.reset();
+  SourceOffset& offset = state.offsets[index];
+  offset.value.setZero();
+  offset.prior = prior;
+  offset.gated = 0;
+  offset.excluded = false;
+  offset.last_used.reset();
 }
 
 void relax_offset(FilterState& state, int index, double keep, const Eigen::Matrix3d& prior) {
@@ -53,7 +57,9 @@ void relax_offset(FilterState& state, int index, double keep, const Eigen::Matri
   state.P.middleRows<3>(at) *= keep;
   state.P.middleCols<3>(at) *= keep;
   state.P.block<3, 3>(at, at) += (1.0 - keep * keep) * prior;
-  state.offsets[index].value *= keep;
+  SourceOffset& offset = state.offsets[index];
+  offset.value *= keep;
+  offset.prior = keep * keep * offset.prior + (1.0 - keep * keep) * prior;
 }
 
 }  // namespace lodestar::fusion

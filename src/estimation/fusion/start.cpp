@@ -2,30 +2,30 @@
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/estimation/fusion/mm_wheels.hpp"
+#include "lodestar/estimation/fusion/propagation.hpp"
 
 namespace lodestar::fusion {
 namespace {
 
-constexpr double kFreshWheels_s = 0.5;
 constexpr double kAnyVelocity_m_s = 2.0;
 constexpr double kVerticalVelocity_m_s = 0.1;
-
-bool wheels_fresh(const FilterState& state) {
-  return state.inputs.wheels && seconds(state.stamp - state.inputs.wheels->stamp) < kFreshWheels_s;
-}
-
-Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params) {
-  const Inputs& in = state.inputs;
-  if (in.imu_stamp && seconds(state.stamp - *in.imu_stamp) <= params.imu_hold_s)
-    return in.angular_velocity_rad_s - state.gyro_bias;
-  if (wheels_fresh(state)) return {0, 0, in.wheels->yaw_rate_rad_s / (1.0 + state.yaw_rate_scale)};
-  return Eigen::Vector3d::Zero();
-}
 
 Eigen::Vector3d squared(double a, double b, double c) { return {a * a, b * b, c * c}; }
 
 void set_sigma(Covariance& P, int at, int length, double sigma) {
   P.diagonal().segment(at, length).setConstant(sigma * sigma);
+}
+
+/// The fix is where the vehicle was when its image was taken, not when it was stamped.
+void add_time_offset(FilterState& state, const PoseFilterParams& params) {
+  Eigen::Matrix<double, 9, 1> by_offset = Eigen::Matrix<double, 9, 1>::Zero();
+  by_offset.segment<3>(kPosition) = -state.velocity;
+  by_offset.segment<3>(kRotation) = -(state.q_map_base * angular_velocity(state, params));
+  const double variance = state.time_offset_prior_s2;
+  state.P.topLeftCorner<9, 9>() += variance * by_offset * by_offset.transpose();
+  state.P.block<9, 1>(0, kTimeOffset) = variance * by_offset;
+  state.P.block<1, 9>(kTimeOffset, 0) = variance * by_offset.transpose();
+  state.P(kTimeOffset, kTimeOffset) = variance;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
   state.position = fix.T_map_base.translation() + lever_map;
 
   Eigen::Vector3d velocity_variance = squared(kAnyVelocity_m_s, kAnyVelocity_m_s, kVerticalVelocity_m_s);
-  if (wheels_fresh(state)) {
+  if (wheels_heard(state)) {
     const Eigen::Vector2d v = inputs.wheels->velocity_m_s;
     state.velocity =
         R_map_base * (Eigen::Vector3d(v.x(), v.y(), 0) + angular_velocity(state, params).cross(rig.imu_position_base));
@@ -61,9 +61,20 @@ FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, co
   set_sigma(state.P, kGyroBias, 3, params.gyro_bias_rad_s);
   set_sigma(state.P, kAccelerometerBias, 3, params.accelerometer_bias_m_s2);
   set_sigma(state.P, kWheelScale, 2, params.odometry_scale_sigma);
+  set_sigma(state.P, kGyroScale, 1, params.gyro_scale_sigma);
+  state.time_offset_prior_s2 = params.camera_time_offset_sigma_s * params.camera_time_offset_sigma_s;
+  add_time_offset(state, params);
   set_sigma(state.P, kMount, 3, params.camera_mount_sigma_rad);
   set_sigma(state.P, kLensScale, 1, params.lens_scale_sigma);
   return state;
+}
+
+BaseJacobian base_jacobian(const FilterState& state, const Rig& rig) {
+  BaseJacobian J = BaseJacobian::Zero();
+  J.block<3, 3>(0, kPosition).setIdentity();
+  J.block<3, 3>(0, kRotation) = skew(state.q_map_base * rig.imu_position_base);
+  J.block<3, 3>(3, kRotation).setIdentity();
+  return J;
 }
 
 StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFilterParams& params) {
@@ -76,10 +87,7 @@ StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFi
   out.angular_velocity_rad_s = angular_velocity(state, params);
   out.velocity_base_m_s = velocity_base(state, out.angular_velocity_rad_s + state.gyro_bias, rig);
 
-  Eigen::Matrix<double, 6, 9> J = Eigen::Matrix<double, 6, 9>::Zero();
-  J.block<3, 3>(0, kPosition).setIdentity();
-  J.block<3, 3>(0, kRotation) = skew(lever_map);
-  J.block<3, 3>(3, kRotation).setIdentity();
+  const BaseJacobian J = base_jacobian(state, rig);
   out.covariance = J * state.P.topLeftCorner<9, 9>() * J.transpose();
   return out;
 }

@@ -154,6 +154,8 @@ class RecordingReader::Impl {
       else if (topic == topics.odometry)
         handle<nav_msgs::Odometry>(
             id, [this](const auto& odometry) { return conversion(odometry_from(*odometry, params_.frames.base)); });
+      else if (topic == topics.fix && params_.fixes)
+        handle<geometry_msgs::PoseWithCovarianceStamped>(id, [this](const auto& pose) { return fix(*pose); });
       else if (topic == topics.ir_frames)
         handle<IrFrame>(id, [](const auto& frame) { return conversion(ir_frame_from(*frame)); });
     }
@@ -185,6 +187,14 @@ class RecordingReader::Impl {
     const auto pose = pose_from(message, params_.frames.map);
     if (!pose) return std::string(name(pose.error()));
     return Content(TruthCameraPose{pose->stamp, pose->T_parent_child});
+  }
+
+  Conversion fix(const geometry_msgs::PoseWithCovarianceStamped& message) const {
+    const auto pose = pose_estimate_from(message, params_.frames.map);
+    if (!pose) return std::string(name(pose.error()));
+    Fix fix;
+    static_cast<PoseEstimate&>(fix) = *pose;
+    return Content(std::move(fix));
   }
 
   std::optional<Conversion> camera_info(const sensor_msgs::CameraInfo& message) {

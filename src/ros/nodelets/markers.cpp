@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lodestar/base/common/angle.hpp"
 #include "lodestar/ros/convert/transform.hpp"
 
 namespace lodestar {
@@ -57,6 +58,20 @@ Eigen::AlignedBox2d floor_bounds(const std::map<BeaconId, BeaconTable::Entry>& b
   if (bounds.isEmpty()) bounds.extend(Eigen::Vector2d::Zero());
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin_m);
   return {(bounds.min() - margin).array().floor().matrix(), (bounds.max() + margin).array().ceil().matrix()};
+}
+
+/// `lines` with a line from the camera to each of the beacons.
+Marker lines_to(Marker lines, const Eigen::Vector3d& camera_map, const std::map<BeaconId, BeaconTable::Entry>& beacons,
+                const std::set<BeaconId>& ids) {
+  lines.scale.x = 0.04;
+  for (const BeaconId id : ids) {
+    const auto found = beacons.find(id);
+    if (found == beacons.end()) continue;
+    lines.points.push_back(point(camera_map));
+    lines.points.push_back(point(found->second.beacon.position_map));
+  }
+  if (lines.points.empty()) lines.action = Marker::DELETE;
+  return lines;
 }
 
 bool is_thick(double coordinate_m) { return std::abs(std::remainder(coordinate_m, kThickEach_m)) < 0.1; }
@@ -113,16 +128,27 @@ MarkerArray beacon_markers(const std_msgs::Header& header, const std::map<Beacon
 
 Marker bearing_marker(const std_msgs::Header& header, const Eigen::Vector3d& camera_map,
                       const std::map<BeaconId, BeaconTable::Entry>& beacons, const std::set<BeaconId>& in_use) {
-  Marker lines = marker(header, "bearings", 0, Marker::LINE_LIST, color(0.25, 1.0, 0.55, 0.8));
-  lines.scale.x = 0.04;
-  for (const BeaconId id : in_use) {
-    const auto found = beacons.find(id);
-    if (found == beacons.end()) continue;
-    lines.points.push_back(point(camera_map));
-    lines.points.push_back(point(found->second.beacon.position_map));
+  return lines_to(marker(header, "bearings", 0, Marker::LINE_LIST, color(0.25, 1.0, 0.55, 0.8)), camera_map, beacons,
+                  in_use);
+}
+
+Marker refused_marker(const std_msgs::Header& header, const Eigen::Vector3d& camera_map,
+                      const std::map<BeaconId, BeaconTable::Entry>& beacons, const std::set<BeaconId>& refused) {
+  return lines_to(marker(header, "refused bearings", 0, Marker::LINE_LIST, color(1.0, 0.2, 0.15, 0.9)), camera_map,
+                  beacons, refused);
+}
+
+Marker protection_marker(const std_msgs::Header& header, const Eigen::Vector3d& base_map, double protection_level_m) {
+  constexpr int kCorners = 48;
+  Marker circle = marker(header, "protection level", 0, Marker::LINE_STRIP, color(1.0, 0.75, 0.2, 0.9));
+  circle.scale.x = 0.05;
+  const double radius = kCovarianceScale * protection_level_m;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double angle = 2 * kPi * i / kCorners;
+    circle.points.push_back(
+        point({base_map.x() + radius * std::cos(angle), base_map.y() + radius * std::sin(angle), 0.03}));
   }
-  if (lines.points.empty()) lines.action = Marker::DELETE;
-  return lines;
+  return circle;
 }
 
 Marker covariance_marker(const std_msgs::Header& header, const PoseEstimate& pose) {

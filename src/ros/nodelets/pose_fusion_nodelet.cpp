@@ -6,12 +6,14 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "lodestar/base/common/angle.hpp"
 #include "lodestar/line/localization_line.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/convert/sightings.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/convert/transform.hpp"
+#include "lodestar/ros/nodelets/integrity_message.hpp"
 
 namespace lodestar {
 
@@ -39,6 +41,7 @@ void PoseFusionNodelet::onInit() {
 
   pose_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 50);
   odometry_ = nh.advertise<nav_msgs::Odometry>("odometry/filtered", 50);
+  integrity_ = nh.advertise<PoseIntegrity>("pose/integrity", 50);
   if (transform_ != Transform::kNone) broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
   beacons_ = std::make_unique<BeaconInput>(
@@ -59,6 +62,10 @@ void PoseFusionNodelet::read_params(ParamReader& params) {
   publish_rate_hz_ = params.number("publish_rate_hz", 50, {1, 1000});
   odom_frame_ = params.text("odom_frame", "odom");
   use_sightings_ = params.flag("use_sightings", true);
+  slew_m_s_ = params.number("slew_m_s", slew_m_s_, {0, 100});
+  slew_rad_s_ = radians(params.number("slew_deg_s", 10, {0, 3600}));
+  camera_time_offset_sigma_s_ = params.number("camera_time_offset_sigma_s", camera_time_offset_sigma_s_, {0, 0.1});
+  fix_systematic_share_ = params.number("fix_systematic_share", fix_systematic_share_, {0, 1});
   const std::string transform = params.choice("publish_tf", "map_odom", {"map_odom", "map_base", "none"});
   transform_ = transform == "map_odom"   ? Transform::kMapOdom
                : transform == "map_base" ? Transform::kMapBase
@@ -66,8 +73,11 @@ void PoseFusionNodelet::read_params(ParamReader& params) {
 }
 
 void PoseFusionNodelet::make_stage() {
-  const LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
+  LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
+  params.filter.fix_systematic_share = fix_systematic_share_;
+  params.filter.camera_time_offset_sigma_s = camera_time_offset_sigma_s_;
   stage_ = std::make_unique<FusionStage>(params.filter, params.calibration_sigma_px, use_sightings_);
+  slew_ = std::make_unique<PoseSlew>(slew_m_s_, slew_rad_s_);
 }
 
 void PoseFusionNodelet::take_sightings(const BeaconSightingArrayConstPtr& message) {
@@ -106,6 +116,7 @@ void PoseFusionNodelet::publish_if_due() {
   published_ = estimate->stamp;
   pose_.publish(pose_estimate_message(*estimate, edge_->map_frame()));
   odometry_.publish(odometry_message(*estimate, edge_->map_frame(), edge_->base_frame()));
+  integrity_.publish(integrity_message(stage_->filter(), edge_->map_frame()));
   pose_watch_->tick();
   if (transform_ != Transform::kMapBase) return;
   broadcaster_->sendTransform(
@@ -115,12 +126,12 @@ void PoseFusionNodelet::publish_if_due() {
 void PoseFusionNodelet::publish_map_odom(const OdometrySample& sample) {
   if (!due(transformed_, sample.stamp, publish_rate_hz_)) return;
   const auto estimate = stage_->filter().estimate_at(sample.stamp);
-  if (!estimate) return;
+  if (!estimate) return slew_->reset();
   transformed_ = sample.stamp;
   const RigidTransform T_odom_base =
       Eigen::Translation3d(sample.position_odom_m) * Eigen::AngleAxisd(sample.yaw_odom_rad, Eigen::Vector3d::UnitZ());
-  broadcaster_->sendTransform(
-      transform_message(estimate->T_map_base * T_odom_base.inverse(), sample.stamp, edge_->map_frame(), odom_frame_));
+  broadcaster_->sendTransform(transform_message(slew_->step(estimate->T_map_base, T_odom_base, sample.stamp),
+                                                sample.stamp, edge_->map_frame(), odom_frame_));
 }
 
 void PoseFusionNodelet::report(Health::Status& status) {
@@ -135,13 +146,28 @@ void PoseFusionNodelet::report(Health::Status& status) {
     status.addf("sigma_x_m", "%.4f", std::sqrt(estimate->covariance(0, 0)));
     status.addf("sigma_y_m", "%.4f", std::sqrt(estimate->covariance(1, 1)));
     status.addf("sigma_yaw_rad", "%.5f", std::sqrt(estimate->covariance(5, 5)));
+    status.addf("protection_level_m", "%.3f", *stage_->filter().protection_level_m());
+    status.addf("camera_time_offset_s", "%.4f", *stage_->filter().camera_time_offset_s());
   }
+  report_liars(status);
   stage_->filter().drops().each(
       [&](const char* reason, std::uint64_t count) { status.add(std::string("not used: ") + reason, count); });
 }
 
+/// Beacons that have to be looked after, by id.
+void PoseFusionNodelet::report_liars(Health::Status& status) {
+  constexpr int kManyGated = 20;
+  std::string ids;
+  for (const BeaconCheck& check : stage_->filter().beacon_checks())
+    if (check.excluded || check.gated >= kManyGated)
+      ids += (ids.empty() ? "" : " ") + std::to_string(check.beacon.value);
+  status.add("beacons that lie", ids.empty() ? "none" : ids);
+  if (!ids.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "beacons that lie: " + ids);
+}
+
 void PoseFusionNodelet::reset() {
   stage_->reset();
+  slew_->reset();
   beacons_->reset_time();
   published_.reset();
   transformed_.reset();

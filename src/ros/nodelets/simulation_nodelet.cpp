@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ void SimulationNodelet::onInit() {
   map_frame_ = scenario_.site.frame_id;
   simulation_ = std::make_unique<sim::Simulation>(scenario_);
   health_ = std::make_unique<Health>(getNodeHandle(), getPrivateNodeHandle(), "simulation", scenario_.name, limits);
-  image_watch_ = &health_->watch("image", Need::kRequired);
+  image_watch_ = &health_->watch("image", scenario_.has_camera ? Need::kRequired : Need::kOptional);
   health_->add_report([this](Health::Status& status) { report(status); });
   advertise();
   publish_mounts();
@@ -65,6 +66,7 @@ void SimulationNodelet::advertise() {
   imu_ = nh.advertise<sensor_msgs::Imu>("imu/data", 200);
   odometry_ = nh.advertise<nav_msgs::Odometry>("odom", 50);
   ir_ = nh.advertise<IrFrame>("ir/frames", 50);
+  if (scenario_.fixes) fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 50);
   truth_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", 100);
   camera_truth_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/camera_pose", 100);
   if (publish_clock_) clock_publisher_ = nh.advertise<rosgraph_msgs::Clock>("/clock", 1);
@@ -119,6 +121,8 @@ void SimulationNodelet::publish(const OdometrySample& sample) {
 }
 
 void SimulationNodelet::publish(const RawIrFrame& frame) { ir_.publish(ir_frame_message(frame, kIr)); }
+
+void SimulationNodelet::publish(const Fix& fix) { fix_.publish(pose_estimate_message(fix, map_frame_)); }
 
 void SimulationNodelet::publish(const sim::TrueBase& truth) {
   truth_.publish(pose_message(StampedPose{truth.stamp, truth.T_map_base}, map_frame_));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/ros/convert/image.hpp"
@@ -39,6 +40,7 @@ void VisualizationNodelet::onInit() {
   draw_site();
   sightings_ = nh.subscribe("beacons/sightings", 5, &VisualizationNodelet::take_sightings, this);
   pose_ = nh.subscribe("pose", 5, &VisualizationNodelet::take_pose, this);
+  integrity_subscriber_ = nh.subscribe("pose/integrity", 5, &VisualizationNodelet::take_integrity, this);
   image_transport::ImageTransport transport(nh);
   image_publisher_ = transport.advertise("beacons/image", 2);
   image_subscriber_ = transport.subscribe("camera/image_raw", 5, &VisualizationNodelet::take_image, this,
@@ -73,13 +75,29 @@ void VisualizationNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStam
   if (!edge_->admit(message->header.stamp) || !due(truck_drawn_, message->header.stamp)) return;
   visualization_msgs::MarkerArray markers = truck_markers(message->header, pose->T_map_base);
   markers.markers.push_back(covariance_marker(message->header, *pose));
+  if (integrity_)
+    markers.markers.push_back(
+        protection_marker(message->header, pose->T_map_base.translation(), integrity_->protection_level_m));
   const auto& surveyed = edge_->vehicle().T_base_camera;
   if (const auto T_base_camera = surveyed ? surveyed : edge_->mounts().T_base(camera_frame_)) {
     const Eigen::Vector3d camera_map = (pose->T_map_base * *T_base_camera).translation();
-    markers.markers.push_back(bearing_marker(message->header, camera_map, beacons_->table().entries(), in_use_));
+    std::set<BeaconId> used;
+    std::set_difference(in_use_.begin(), in_use_.end(), refused_.begin(), refused_.end(),
+                        std::inserter(used, used.end()));
+    const auto& beacons = beacons_->table().entries();
+    markers.markers.push_back(refused_marker(message->header, camera_map, beacons, refused_));
+    markers.markers.push_back(bearing_marker(message->header, camera_map, beacons, used));
   }
   truck_markers_.publish(markers);
   extend_path(*message);
+}
+
+void VisualizationNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
+  if (!std::isfinite(message->protection_level_m)) return edge_->health().drop(MessageDrop::kNotFinite);
+  integrity_ = message;
+  refused_.clear();
+  for (const BeaconFit& fit : message->beacons)
+    if (fit.gated > 0 || fit.excluded) refused_.insert(BeaconId{fit.beacon_id});
 }
 
 void VisualizationNodelet::draw_site() {
@@ -123,6 +141,8 @@ bool VisualizationNodelet::due(std::optional<ros::Time>& last, const ros::Time& 
 void VisualizationNodelet::reset() {
   images_.clear();
   in_use_.clear();
+  refused_.clear();
+  integrity_.reset();
   path_.poses.clear();
   beacons_->reset_time();
 }

@@ -100,6 +100,21 @@ TEST_F(ScenarioFile, ExposureMustFitTheRate) {
   EXPECT_NE(faults(kName + long_exposure + kRest).find("longer than a frame"), std::string::npos);
 }
 
+TEST_F(ScenarioFile, FixesMayStandInForTheCamera) {
+  const auto scenario = load_scenario(write(
+      kName +
+      "fixes: {rate_hz: 5, latency_s: [0.1, 0.2], outlier_probability: 0.5, blackouts: [{from_s: 1, to_s: 2}]}\n" +
+      kRest));
+  ASSERT_TRUE(scenario) << describe(scenario.error());
+  EXPECT_FALSE(scenario->has_camera);
+  EXPECT_EQ(scenario->fixes->rate_hz, 5);
+  EXPECT_EQ(scenario->fixes->latency_to_s, 0.2);
+  EXPECT_EQ(scenario->fixes->blackouts.at(0).to_s, 2);
+  EXPECT_NE(faults(kName + kRest).find("neither camera nor fixes"), std::string::npos);
+  EXPECT_NE(faults(kName + "fixes: {latency_s: [0.2, 0.1]}\n" + kRest).find("ends before it begins"),
+            std::string::npos);
+}
+
 TEST_F(ScenarioFile, AMissingFileIsOneSentence) {
   const auto scenario = load_scenario((folder_ / "none.yaml").string());
   ASSERT_FALSE(scenario);

@@ -4,6 +4,8 @@
 #include "lodestar/base/measurement/motion.hpp"
 #include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/estimation/fusion/error_state.hpp"
+#include "lodestar/estimation/fusion/innovation_means.hpp"
+#include "lodestar/estimation/fusion/integrity.hpp"
 #include "lodestar/estimation/fusion/pose_filter_params.hpp"
 #include "lodestar/estimation/fusion/rig.hpp"
 
@@ -17,13 +19,15 @@ struct Gates {
 
 /// What became of the measurements of one event.
 struct Tally {
-  int used = 0, gated = 0, crowded = 0;
+  int used = 0, gated = 0, crowded = 0, excluded = 0;
+  InnovationMeans innovations;  ///< of the used
 };
 
 /// Bearings of one instant, the best fitting first. When most of them lie outside their gates the state is what is
-/// wrong: none is used, and the run of such instants is noted in the state's health.
+/// wrong: none is used, and the run of such instants is noted in the state's health. Beacons that are found to lie are
+/// excluded.
 Tally correct_with_bearings(FilterState& state, const BeaconBearings& bearings, const Rig& rig, const Gates& gates,
-                            const PoseFilterParams& params);
+                            const IntegrityFactors& integrity, const PoseFilterParams& params);
 
 Tally correct_with_fix(FilterState& state, const Fix& fix, const Rig& rig, const Gates& gates,
                        const PoseFilterParams& params);

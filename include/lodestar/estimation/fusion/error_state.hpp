@@ -20,9 +20,11 @@ constexpr int kGyroBias = 9;            ///< rad/s, base_link
 constexpr int kAccelerometerBias = 12;  ///< m/s^2, base_link
 constexpr int kWheelScale = 15;         ///< relative
 constexpr int kYawRateScale = 16;       ///< relative
-constexpr int kMount = 17;              ///< rad, base_link
-constexpr int kLensScale = 20;          ///< relative, of the angle to the optical axis
-constexpr int kCore = 21;
+constexpr int kGyroScale = 17;          ///< relative, about base_link's z
+constexpr int kMount = 18;              ///< rad, base_link
+constexpr int kLensScale = 21;          ///< relative, of the angle to the optical axis
+constexpr int kTimeOffset = 22;         ///< s, of the camera's stamps
+constexpr int kCore = 23;
 constexpr int kMaxOffsets = 16;  ///< source offsets of three components follow the core
 constexpr int kMaxSize = kCore + 3 * kMaxOffsets;
 
@@ -39,7 +41,9 @@ struct CoreState {
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero();
   double wheel_scale = 0;     ///< wheels say (1 + scale) times the truth
   double yaw_rate_scale = 0;  ///< likewise
+  double gyro_scale = 0;      ///< the gyro says (1 + scale) times the truth about z
   double lens_scale = 0;      ///< the lens model says (1 + scale) times the true angle to the optical axis
+  double time_offset_s = 0;   ///< an image was taken so much after its stamp
   Eigen::Quaterniond q_mount = Eigen::Quaterniond::Identity();  ///< R_base_camera = q_mount * nominal R_base_camera
 };
 
@@ -55,6 +59,9 @@ struct SourceOffset {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();      ///< m in map, or rad
   Eigen::Vector3d place = Eigen::Vector3d::Zero();      ///< of the beacon as given
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< the view (direction or position) that the value belongs to
+  Eigen::Matrix3d prior = Eigen::Matrix3d::Zero();      ///< covariance of the offset if it is as unknown as at first
+  int gated = 0;                                        ///< measurements of it that were refused, in a row
+  bool excluded = false;                                ///< found to lie: not used
   Stamp last_seen;
   std::optional<Stamp> last_used;
 };
@@ -83,6 +90,7 @@ struct FilterState : CoreState {
   Stamp stamp;
   std::array<SourceOffset, kMaxOffsets> offsets;
   int offset_count = 0;
+  double time_offset_prior_s2 = 0;  ///< variance of the time offset at first; 0: switched off
   Covariance P = Covariance::Zero(kCore, kCore);
   Inputs inputs;
   Health health;

@@ -11,6 +11,7 @@ enum class FilterDrop {
   kGated,       ///< chi-square gate
   kNotStarted,  ///< bearings before the first fix
   kCrowded,     ///< more beacons in view than the state has room for
+  kExcluded,    ///< of a beacon that was found to lie
   kCount
 };
 const char* name(FilterDrop reason);

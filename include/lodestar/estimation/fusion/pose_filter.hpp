@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "lodestar/base/common/drop_counts.hpp"
 #include "lodestar/base/measurement/bearing.hpp"
@@ -8,6 +9,7 @@
 #include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/estimation/fusion/corrections.hpp"
 #include "lodestar/estimation/fusion/filter_drop.hpp"
+#include "lodestar/estimation/fusion/integrity.hpp"
 #include "lodestar/estimation/fusion/pose_filter_params.hpp"
 #include "lodestar/estimation/fusion/state_buffer.hpp"
 
@@ -44,9 +46,18 @@ class PoseFilter {
   /// The state at `stamp`: from the buffer, or predicted to it by constant velocity (at most buffer_s ahead).
   std::optional<StateEstimate> estimate_at(Stamp stamp) const;
 
+  /// Radius about estimate()'s position in which the truth lies, but for integrity_risk_1_h (m, horizontal).
+  std::optional<double> protection_level_m() const;
+  /// The beacons seen of late, each with how well it fits where it is said to be.
+  std::vector<BeaconCheck> beacon_checks() const;
+  /// How much later than stamped the images were taken, as estimated (s).
+  std::optional<double> camera_time_offset_s() const;
+
   FilterMode mode() const;
+  const PoseFilterParams& params() const { return params_; }
   const DropCounts<FilterDrop>& drops() const { return drops_; }
-  /// Forgets everything but the drop counts, camera and inertial sensor's place.
+  const InnovationMeans& innovations() const { return innovations_; }
+  /// Forgets everything but the counts, camera and inertial sensor's place.
   void reset();
 
  private:
@@ -60,12 +71,15 @@ class PoseFilter {
   fusion::Tally apply(fusion::FilterState& state, std::size_t i) const;
   void judge();
   bool started() const;
+  const fusion::FilterState* newest() const;
 
   PoseFilterParams params_;
   fusion::Gates gates_;
+  fusion::IntegrityFactors integrity_;
   fusion::Rig rig_;
   fusion::StateBuffer buffer_;
   DropCounts<FilterDrop> drops_;
+  InnovationMeans innovations_;
   bool lost_ = false;
 };
 

@@ -14,14 +14,20 @@ struct PoseFilterParams {
   double odometry_scale_sigma = 0.02;     ///< relative; of the speed and of the yaw rate
   double camera_mount_sigma_rad = 0.002;  ///< each axis
 
+  double camera_time_offset_sigma_s = 0.001;    ///< of the stamps; 0: taken for exact, and the state is switched off
+  double camera_time_offset_correlation_s = 5;  ///< how long a time offset lasts
+
   double lens_scale_sigma = 0.001;  ///< relative, of the angle to the optical axis (a focal length's error)
 
-  double gate_probability = 0.999;     ///< chi-square gate of each update
-  double buffer_s = 2.0;               ///< how late a measurement may come
-  double coast_after_s = 0.5;          ///< without an optical update: coasting
-  double lost_position_sigma_m = 1.0;  ///< beyond it the pose is lost
-  double lost_after_s = 1.0;           ///< of optical updates that all contradict the state: lost
-  double start_inflation = 4.0;        ///< of the first fix's covariance: the bearings after it share its errors
+  double gate_probability = 0.999;            ///< chi-square gate of each update
+  double integrity_risk_1_h = 1e-4;           ///< that the truth lies outside the protection level, unnoticed
+  double beacon_fault_rate_1_h = 1e-3;        ///< how often a beacon comes to lie (moved, mirrored, named wrongly)
+  double false_exclusion_probability = 1e-6;  ///< of each test of a true beacon
+  double buffer_s = 2.0;                      ///< how late a measurement may come
+  double coast_after_s = 0.5;                 ///< without an optical update: coasting
+  double lost_position_sigma_m = 1.0;         ///< beyond it the pose is lost
+  double lost_after_s = 1.0;                  ///< of optical updates that all contradict the state: lost
+  double start_inflation = 4.0;               ///< of the first fix's covariance: the bearings after it share its errors
 
   // A correlation time is the integral of the correlation over all lags, in both directions.
   double bearing_noise_share = 0.05;    ///< of a bearing's variance: pixel noise; all else is the lens model's error
@@ -35,7 +41,8 @@ struct PoseFilterParams {
 
   double gyro_bias_drift_rad_s_sqrt_s = 2e-5;          ///< random walk
   double accelerometer_bias_drift_m_s2_sqrt_s = 1e-4;  ///< random walk
-  double gyro_scale_sigma = 0.001;                     ///< relative; enters as noise while turning
+  double gyro_scale_sigma = 0.001;                     ///< relative, about base_link's z
+  double gyro_axis_sigma_rad = 0.001;                  ///< how crooked the gyro sits: turning shows as roll and pitch
   double lens_drift_rad_sqrt_m = 4e-4;                 ///< random walk of the mount on the way: the part of the lens
                                                        ///< error that the beacons in view share changes with them
   double lens_scale_drift_sqrt_m = 1e-4;               ///< likewise of the lens scale

@@ -10,7 +10,7 @@ namespace lodestar::fusion {
 
 constexpr double kGravity_m_s2 = 9.80665;  ///< along -z of map; its local difference goes into the accelerometer bias
 
-/// The part of the error vector that a step reads (up to the yaw rate's scale) and the part that it writes.
+/// The part of the error vector that a step reads (up to the gyro's scale) and the part that it writes.
 constexpr int kStepReads = kMount;
 constexpr int kStepWrites = kGyroBias;
 
@@ -43,6 +43,13 @@ struct PlanarNoise {
 
 /// Constant-velocity step over dt on an arc of the wheels' yaw rate (its scale in it).
 Transition move_planar(CoreState& x, double yaw_rate_rad_s, double dt_s, const PlanarNoise& noise);
+
+/// Whether wheel speed is in force at the state's stamp.
+bool wheels_heard(const FilterState& state);
+
+/// As the gyro in force says it, bias taken off; by the wheels where no gyro is heard, 0 where none are (rad/s,
+/// base_link).
+Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params);
 
 /// Takes the state to a stamp (not before its own): by the inertial sensor while it is heard, else by the wheels, else
 /// by constant velocity.

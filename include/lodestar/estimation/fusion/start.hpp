@@ -11,6 +11,10 @@ namespace lodestar::fusion {
 /// wheels (any that a truck drives at, when there are none), all else at its prior.
 FilterState start_state(const Fix& fix, const Inputs& inputs, const Rig& rig, const PoseFilterParams& params);
 
+/// The error of base_link's pose, in the order of PoseEstimate, by that of the state's position, velocity and rotation.
+using BaseJacobian = Eigen::Matrix<double, 6, 9>;
+BaseJacobian base_jacobian(const FilterState& state, const Rig& rig);
+
 /// The state as others see it: pose of base_link, covariance in the order of PoseEstimate.
 StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFilterParams& params);
 

@@ -76,7 +76,7 @@ struct TruthCameraPose {
 /// One message of a recording, converted. The camera's intrinsics come once, and again when they change.
 struct Record {
   Stamp received;  ///< when the recorder got it; the measurement's own stamp is in the content
-  std::variant<Image, CameraIntrinsics, ImuSample, OdometrySample, RawIrFrame, TruthPose, TruthCameraPose> content;
+  std::variant<Image, CameraIntrinsics, ImuSample, OdometrySample, RawIrFrame, TruthPose, TruthCameraPose, Fix> content;
 };
 
 struct RecordingReaderParams {
@@ -84,6 +84,7 @@ struct RecordingReaderParams {
   RecordingFrames frames;
   std::optional<RigidTransform> T_base_imu;  ///< empty: from /tf_static
   double camera_time_offset_s = 0;           ///< added to each image's stamp
+  bool fixes = false;                        ///< /beacons/fix as well, for tools that do not make their own
   bool truth_only = false;                   ///< only the two ground truth topics
   int threads = 2;                           ///< that decompress, >= 1
 };

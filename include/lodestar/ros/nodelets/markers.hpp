@@ -23,6 +23,15 @@ visualization_msgs::MarkerArray beacon_markers(const std_msgs::Header& header,
                                                const std::map<BeaconId, BeaconTable::Entry>& beacons,
                                                const std::set<BeaconId>& in_use);
 
+/// A circle of the protection level on the floor below the truck, kCovarianceScale times enlarged as the ellipse is.
+visualization_msgs::Marker protection_marker(const std_msgs::Header& header, const Eigen::Vector3d& base_map,
+                                             double protection_level_m);
+
+/// A line from the camera to each beacon whose bearings the filter refuses.
+visualization_msgs::Marker refused_marker(const std_msgs::Header& header, const Eigen::Vector3d& camera_map,
+                                          const std::map<BeaconId, BeaconTable::Entry>& beacons,
+                                          const std::set<BeaconId>& refused);
+
 /// A line from the camera to each beacon in use.
 visualization_msgs::Marker bearing_marker(const std_msgs::Header& header, const Eigen::Vector3d& camera_map,
                                           const std::map<BeaconId, BeaconTable::Entry>& beacons,

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "lodestar/BeaconSightingArray.h"
+#include "lodestar/PoseIntegrity.h"
 #include "lodestar/base/measurement/image.hpp"
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"
@@ -24,6 +25,7 @@ class VisualizationNodelet : public nodelet::Nodelet {
   void take_image(const sensor_msgs::ImageConstPtr& message);
   void take_sightings(const BeaconSightingArrayConstPtr& message);
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
+  void take_integrity(const PoseIntegrityConstPtr& message);
   void draw_site();
   void draw_image(const BeaconSightingArray& sightings);
   void extend_path(const geometry_msgs::PoseWithCovarianceStamped& message);
@@ -39,11 +41,12 @@ class VisualizationNodelet : public nodelet::Nodelet {
   StreamWatch* pose_watch_ = nullptr;
   StreamWatch* sightings_watch_ = nullptr;
   std::deque<Image> images_;
-  std::set<BeaconId> in_use_;
+  std::set<BeaconId> in_use_, refused_;
+  PoseIntegrityConstPtr integrity_;
   std::optional<ros::Time> image_drawn_, truck_drawn_, beacons_drawn_;
   nav_msgs::Path path_;
   ros::Publisher floor_markers_, beacon_markers_, truck_markers_, path_publisher_;
-  ros::Subscriber sightings_, pose_;
+  ros::Subscriber sightings_, pose_, integrity_subscriber_;
   image_transport::Subscriber image_subscriber_;
   image_transport::Publisher image_publisher_;
 };

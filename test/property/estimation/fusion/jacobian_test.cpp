@@ -34,6 +34,8 @@ class Jacobians : public testing::TestWithParam<int> {
     x.yaw_rate_scale = uniform(0.1);
     x.q_mount = Eigen::Quaterniond(so3_exp(vector(0.05)));
     x.lens_scale = uniform(0.02);
+    x.gyro_scale = uniform(0.05);
+    x.time_offset_s = uniform(0.01);
     x.offset_count = 2;
     x.P.setIdentity(x.size(), x.size());
     x.offsets[0].value = vector(0.1);
@@ -89,13 +91,17 @@ TEST_P(Jacobians, bearing) {
   BeaconBearing bearing;
   bearing.position_map = x.position + Eigen::Vector3d(uniform(5), uniform(5), 6);
   bearing.covariance = 1e-6 * Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d u = beacon_in_camera(x, bearing.position_map + x.offsets[1].value, r).normalized();
+  const Eigen::Vector3d w = vector(1);
+  CoreState taken = x;  // where the camera was when it took the image
+  taken.position += x.time_offset_s * x.velocity;
+  taken.q_map_base = x.q_map_base * Eigen::Quaterniond(so3_exp(x.time_offset_s * w));
+  const Eigen::Vector3d u = beacon_in_camera(taken, bearing.position_map + x.offsets[1].value, r).normalized();
   bearing.direction_camera = without_lens_scale(u, 1.0 / (1.0 + x.lens_scale) - 1.0);
   const auto residual = [&](const FilterState& at) {
-    return bearing_innovation(at, bearing, at.offsets[1].value, 1, r, 0.1)->residual;
+    return bearing_innovation(at, bearing, at.offsets[1].value, 1, w, r, 0.1)->residual;
   };
   ASSERT_LT(residual(x).norm(), 1e-12);
-  expect_near(full_jacobian(x, *bearing_innovation(x, bearing, x.offsets[1].value, 1, r, 0.1)),
+  expect_near(full_jacobian(x, *bearing_innovation(x, bearing, x.offsets[1].value, 1, w, r, 0.1)),
               numeric_jacobian<2>(x, residual), 1e-7);
 }
 
