@@ -57,14 +57,17 @@ bool read_code(BitReader& bits, std::size_t symbol_count, PrefixCode& code) {
   return code.set(lengths);
 }
 
-/// Undoes prefix codes, run lengths of the front byte and moves to front, all in one pass.
-bool read_column(BitReader& reader, const std::vector<PrefixCode>& codes, const std::vector<std::uint8_t>& selectors,
-                 FrontList front, std::size_t max_size, Block& block) {
-  BitReader bits = reader;  // of its own, so that it stays in registers
+/// Undoes prefix codes, run lengths of the front byte and moves to front, all in one pass. Leaves the block's size zero
+/// when its end does not come.
+/// @param bits a copy, so that it stays in registers
+/// @returns the bits that follow
+BitReader read_column(BitReader bits, const std::vector<PrefixCode>& codes, const std::vector<std::uint8_t>& selectors,
+                      FrontList front, std::size_t max_size, Block& block) {
   std::array<std::uint32_t, 256> histogram{};
   std::uint8_t* const column = block.column.data();
   std::size_t size = 0;
   unsigned digits = 0;  // of a run's length, in base two with the digits 1 and 2, the lowest first
+  block.size = 0;
   for (const std::uint8_t selector : selectors) {
     const PrefixCode& code = codes[selector];
     for (unsigned i = 0; i < kGroupSize; ++i) {
@@ -81,19 +84,18 @@ bool read_column(BitReader& reader, const std::vector<PrefixCode>& codes, const 
         byte = front.take_far(symbol - 1);
         digits = 0;
       } else {
-        reader = bits;
-        block.size = size;
+        if (symbol == PrefixCode::kEndOfBlock) block.size = size;
         block.histogram = histogram;
-        return symbol == PrefixCode::kEndOfBlock;
+        return bits;
       }
-      if (count > max_size - size) return false;
+      if (count > max_size - size) return bits;
       std::memset(column + size, byte, kSmallRun);
       if (count > kSmallRun) std::memset(column + size, byte, count);
       size += count;
       histogram[byte] += static_cast<std::uint32_t>(count);
     }
   }
-  return false;
+  return bits;
 }
 
 std::optional<Bzip2Fault> read(BitReader& bits, std::size_t max_size, Block& block) {
@@ -108,7 +110,7 @@ std::optional<Bzip2Fault> read(BitReader& bits, std::size_t max_size, Block& blo
   std::vector<PrefixCode> codes(code_count);
   for (PrefixCode& code : codes)  // the symbols: two digits of runs, all bytes but the first of the list, the end
     if (!read_code(bits, alphabet.size() + 2, code)) return Bzip2Fault::kDamaged;
-  if (!read_column(bits, codes, selectors, FrontList(alphabet), max_size, block)) return Bzip2Fault::kDamaged;
+  bits = read_column(bits, codes, selectors, FrontList(alphabet), max_size, block);
   if (block.origin >= block.size) return Bzip2Fault::kDamaged;
   return std::nullopt;
 }

@@ -34,6 +34,7 @@ unsigned PrefixCode::decode_long(BitReader& bits) const {
     bits.skip(length);
     return symbols_[offset_[length] + (code >> (kMaxLength - length))];
   }
+  bits.skip(kMaxLength);  // read all the same, so that a cut stream is told as such
   return kNone;
 }
 
