@@ -30,6 +30,17 @@ inline Bytes compress(const Bytes& text, int level = 9) {
   return Bytes(packed.begin(), packed.end());
 }
 
+/// By libbz2.
+inline Bytes uncompress(const Bytes& packed) {
+  namespace io = boost::iostreams;
+  std::vector<char> text;
+  io::filtering_istream in;
+  in.push(io::bzip2_decompressor(false, 1 << 16));
+  in.push(io::array_source(reinterpret_cast<const char*>(packed.data()), packed.size()));
+  io::copy(in, io::back_inserter(text), 1 << 16);
+  return Bytes(text.begin(), text.end());
+}
+
 /// The kinds of data that try different parts of a decoder.
 enum class Kind { kNoise, kRuns, kPeriods, kText, kImage, kStairs, kCount };
 
