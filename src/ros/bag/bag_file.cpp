@@ -105,19 +105,49 @@ rosbag::CompressionType compression_type(const PackedChunk& chunk, const std::st
                        "', known are none, bz2 and lz4: convert it with 'rosbag compress'");
 }
 
-std::shared_ptr<std::vector<std::uint8_t>> unpack_bytes(PackedChunk&& chunk, const std::string& path) {
+[[noreturn]] void fail_compressed(const PackedChunk& chunk, const std::string& path) {
+  throw RecordingError(path + " is damaged: the chunk at byte " + std::to_string(chunk.position) +
+                       " cannot be decompressed; copy or record it anew");
+}
+
+/// What rosbag_storage unpacks, and what is not packed.
+std::vector<std::uint8_t> bytes_of(PackedChunk& chunk, const std::string& path) {
   const rosbag::CompressionType compression = compression_type(chunk, path);
-  if (compression == rosbag::compression::Uncompressed)
-    return std::make_shared<std::vector<std::uint8_t>>(std::move(chunk.bytes));
-  auto bytes = std::make_shared<std::vector<std::uint8_t>>(chunk.unpacked_size);
+  if (compression == rosbag::compression::Uncompressed) return std::move(chunk.bytes);
+  std::vector<std::uint8_t> bytes(chunk.unpacked_size);
   try {
-    rosbag::ChunkedFile().decompress(compression, bytes->data(), chunk.unpacked_size, chunk.bytes.data(),
+    rosbag::ChunkedFile().decompress(compression, bytes.data(), chunk.unpacked_size, chunk.bytes.data(),
                                      static_cast<unsigned>(chunk.bytes.size()));
   } catch (const rosbag::BagException&) {
-    throw RecordingError(path + " is damaged: the chunk at byte " + std::to_string(chunk.position) +
-                         " cannot be decompressed; copy or record it anew");
+    fail_compressed(chunk, path);
   }
   return bytes;
+}
+
+std::vector<std::uint8_t> bytes_of(Bzip2Unpacked&& unpacked, const PackedChunk& chunk, const std::string& path) {
+  if (unpacked) return std::move(unpacked).value();
+  if (unpacked.error() == Bzip2Fault::kRandomised)
+    throw RecordingError(path + " holds 'randomised' blocks, as bzip2 wrote them before 1999: convert it with " +
+                         "'rosbag decompress'");
+  fail_compressed(chunk, path);
+}
+
+std::vector<BagMessage> messages_of(std::vector<std::uint8_t>&& unpacked, std::uint64_t position,
+                                    const std::string& path) {
+  constexpr std::uint8_t kMessageData = 2;
+  const auto bytes = std::make_shared<std::vector<std::uint8_t>>(std::move(unpacked));
+  std::vector<BagMessage> messages;
+  Cursor cursor(*bytes, position, path);
+  while (!cursor.at_end()) {
+    const std::uint32_t header_size = cursor.take_size();
+    const Fields fields(cursor.take(header_size), header_size, path);
+    const std::uint32_t data_size = cursor.take_size();
+    const std::size_t offset = cursor.offset();
+    cursor.take(data_size);
+    if (fields.number<std::uint8_t>("op") != kMessageData) continue;
+    messages.push_back({fields.stamp("time"), fields.number<std::uint32_t>("conn"), bytes, offset, data_size});
+  }
+  return messages;
 }
 
 }  // namespace
@@ -215,21 +245,24 @@ PackedChunk BagFile::read_chunk(const BagChunkInfo& info) {
   return chunk;
 }
 
-std::vector<BagMessage> unpack(PackedChunk chunk, const std::string& path) {
-  constexpr std::uint8_t kMessageData = 2;
-  const auto bytes = unpack_bytes(std::move(chunk), path);
-  std::vector<BagMessage> messages;
-  Cursor cursor(*bytes, chunk.position, path);
-  while (!cursor.at_end()) {
-    const std::uint32_t header_size = cursor.take_size();
-    const Fields fields(cursor.take(header_size), header_size, path);
-    const std::uint32_t data_size = cursor.take_size();
-    const std::size_t offset = cursor.offset();
-    cursor.take(data_size);
-    if (fields.number<std::uint8_t>("op") != kMessageData) continue;
-    messages.push_back({fields.stamp("time"), fields.number<std::uint32_t>("conn"), bytes, offset, data_size});
+std::vector<UnpackedChunk> unpack(std::vector<PackedChunk> chunks, const std::string& path, Bzip2Unpacker& bzip2) {
+  const auto is_bzip2 = [](const PackedChunk& chunk) { return chunk.compression == rosbag::COMPRESSION_BZ2; };
+  std::vector<Bzip2Packed> packed;
+  for (const PackedChunk& chunk : chunks)
+    if (is_bzip2(chunk)) packed.push_back({chunk.bytes.data(), chunk.bytes.size(), chunk.unpacked_size});
+  std::vector<Bzip2Unpacked> unpacked = bzip2.unpack(packed);
+
+  std::vector<UnpackedChunk> out;
+  auto next = unpacked.begin();
+  for (PackedChunk& chunk : chunks) {
+    try {
+      out.push_back(messages_of(is_bzip2(chunk) ? bytes_of(std::move(*next++), chunk, path) : bytes_of(chunk, path),
+                                chunk.position, path));
+    } catch (const RecordingError& error) {
+      out.push_back(error);
+    }
   }
-  return messages;
+  return out;
 }
 
 }  // namespace lodestar

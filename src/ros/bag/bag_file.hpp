@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "lodestar/base/common/result.hpp"
 #include "lodestar/base/common/stamp.hpp"
+#include "lodestar/bzip2/bzip2.hpp"
+#include "lodestar/ros/bag/recording.hpp"
 
 namespace lodestar {
 
@@ -70,9 +73,11 @@ class BagFile {
   std::vector<BagChunkInfo> chunks_;
 };
 
-/// The messages of a chunk in the order of the file. Safe to call from several threads.
-/// @param path for the error's text alone
-/// @throws RecordingError: damaged
-std::vector<BagMessage> unpack(PackedChunk chunk, const std::string& path);
+/// The messages of a chunk in the order of the file, or why it cannot be unpacked.
+using UnpackedChunk = Result<std::vector<BagMessage>, RecordingError>;
+
+/// Unpacks chunks together, in their order. Safe to call from several threads, each with its own `bzip2`.
+/// @param path for the errors' text alone
+std::vector<UnpackedChunk> unpack(std::vector<PackedChunk> chunks, const std::string& path, Bzip2Unpacker& bzip2);
 
 }  // namespace lodestar

@@ -12,8 +12,8 @@
 
 namespace lodestar {
 
-/// The messages of some connections in the order of reception. Each chunk is unpacked once, on threads that work a
-/// bounded way ahead.
+/// The messages of some connections in the order of reception. Each chunk is unpacked once, together with those after
+/// it, on threads that work a bounded way ahead: at most a group each, of at most 16 MB and one chunk.
 class BagPlayer {
  public:
   /// @param file outlives the player and is read by nobody else meanwhile
@@ -33,15 +33,19 @@ class BagPlayer {
     }
   };
 
+  std::vector<PackedChunk> read_group();
   void unpack_ahead();
+  void take_group();
   void take_chunk();
 
   BagFile& file_;
   std::set<std::uint32_t> connections_;
-  std::size_t ahead_;
   std::vector<BagChunkInfo> chunks_;  ///< that hold one of the connections
-  std::size_t started_ = 0, taken_ = 0;
-  std::deque<std::future<std::vector<BagMessage>>> unpacking_;
+  std::size_t read_ = 0, taken_ = 0;
+  std::deque<UnpackedChunk> unpacked_;
+  std::vector<Bzip2Unpacker> bzip2_;  ///< one for each thread; outlives the threads' work
+  std::size_t begun_ = 0;             ///< groups
+  std::deque<std::future<std::vector<UnpackedChunk>>> unpacking_;
   std::priority_queue<Queued> queue_;
   std::uint64_t order_ = 0;
 };

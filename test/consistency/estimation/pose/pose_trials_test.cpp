@@ -1,4 +1,4 @@
-// The trials of bench/pose_report_bench.cpp, fewer of them; docs/math/observability.md has the full numbers.
+// The trials of bench/pose_report.cpp, fewer of them; docs/math/observability.md has the full numbers.
 
 #include "support/pose_trials.hpp"
 
