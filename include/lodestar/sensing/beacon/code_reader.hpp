@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "lodestar/base/measurement/sighting.hpp"
+#include "lodestar/sensing/beacon/blob_track.hpp"
+#include "lodestar/sensing/beacon/frame_window.hpp"
+#include "lodestar/sensing/beacon/tone_bank.hpp"
+#include "lodestar/sensing/beacon/tone_code.hpp"
+
+namespace lodestar {
+
+struct CodeReaderParams {
+  ToneCodeParams code;
+  double min_explained = 0.6;  ///< share of a blob's varying light that its code must account for
+};
+
+/// Reads the code of a blob from its light over the window, and says where it is now.
+class CodeReader {
+ public:
+  CodeReader(const CodeReaderParams& params, int slots);
+
+  /// The sighting that the blob makes in the newest frame; none where its light is not a code, is too faint, or has
+  /// gone. A blob that was hidden is read from half a window on, and then only as what it was.
+  /// @param power_threshold of each tone of the code over the noise
+  std::optional<Sighting> read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                               double power_threshold, double dark_variance);
+
+  /// Whether the light of a full window varies more than noise does.
+  bool varies(const BlobTrack& track, double dark_variance) const;
+
+ private:
+  struct Reading {
+    ToneSet code;
+    float mean = 0;                ///< light, grey levels
+    float weakest_over_noise = 0;  ///< power of the code's weakest tone
+    double pixel_variance = 0;     ///< as the residual has it
+  };
+  std::optional<Reading> read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
+  std::optional<Reading> read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                   double dark_variance);
+  bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading) const;
+  void refine_centre(BlobTrack& track, const Reading& reading) const;
+
+  CodeReaderParams params_;
+  Eigen::VectorXf projections_;
+  Eigen::ArrayXf wave_;  ///< the code's part of the light, in each slot
+};
+
+}  // namespace lodestar

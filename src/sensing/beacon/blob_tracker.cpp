@@ -1,0 +1,148 @@
+#include "lodestar/sensing/beacon/blob_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestar {
+namespace {
+
+constexpr double kCoverPx = 5;         ///< a change this near to a blob is its own
+constexpr double kTwinPx = 2;
+constexpr int kYoungFrames = 4;        ///< until then a blob is looked for among all changes
+constexpr double kMaxYoungGatePx = 20;
+constexpr double kFirstSigmaPx = 0.7;  ///< of a cell's centre
+constexpr double kFirstSpeedPxS = 500; ///< one sigma, beside the prediction
+constexpr int kLookBackFrames = 8;     ///< along a velocity that is only just known
+constexpr int kHiddenWindows = 5;      ///< how long a hidden beacon is waited for
+
+/// A change's place: the middle of its cell, which is its upper left pixel's lower right corner.
+Eigen::Vector2d middle(const ChangeScan::Change& change) {
+  return change.pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
+}
+
+}  // namespace
+
+BlobTracker::BlobTracker(int window_frames, int max_blobs)
+    : window_frames_(window_frames),
+      tracks_(static_cast<std::size_t>(max_blobs),
+              BlobTrack(PathFilter(Eigen::Vector2d::Zero(), window_frames), window_frames)) {}
+
+bool BlobTracker::covers(const Eigen::Vector2d& pixel) const {
+  return std::any_of(tracks_.begin(), tracks_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const BlobTrack& t) {
+    return (t.path().pixel() - pixel).squaredNorm() < kCoverPx * kCoverPx;
+  });
+}
+
+BlobTrack* BlobTracker::start_still(const Eigen::Vector2d& pixel, double variance) {
+  if (count_ == tracks_.size()) return nullptr;
+  PathFilter path(pixel, window_frames_);
+  path.start_still(variance);
+  tracks_[count_].restart(path);
+  return &tracks_[count_++];
+}
+
+bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const Changes& risen,
+                             const ImageMotion& motion, const PixelNoise& noise) {
+  const int slot = window.newest();
+  const RigidTransform& T_before_now = window.T_before_now(slot);
+  Eigen::Vector2d predicted = track.path().pixel();
+  if (!T_before_now.matrix().isIdentity(0)) {
+    const auto moved = motion.pixel_from(predicted, T_before_now.inverse());
+    if (!moved) return false;
+    predicted = *moved;
+  }
+  track.predict(predicted, seconds(window.at(slot).stamp - window.at(window.slot(1)).stamp));
+
+  Eigen::Vector2d place = track.path().pixel();
+  const bool young = !track.path().still() && track.age_frames() < kYoungFrames;
+  if (young) {
+    // The nearest light that has come within reach; a blob that hardly moves shows none and is looked for in place.
+    const double gate = std::min(kMaxYoungGatePx, 3.0 * std::sqrt(track.path().variance()) + 1.0);
+    double nearest = gate;
+    std::size_t best = risen.size();
+    for (std::size_t i = 0; i < risen.size(); ++i) {
+      const double distance = (middle(risen[i]) - place).norm();
+      if (!taken_[i] && distance < nearest) {
+        nearest = distance;
+        best = i;
+      }
+    }
+    if (best < risen.size()) place = middle(risen[best]);
+  }
+  const auto look = track.look(window, place, noise);
+  if (look == BlobTrack::Look::kOutside || !motion.camera->contains(track.path().pixel())) return false;
+  if (look == BlobTrack::Look::kSeen && young && track.age_frames() == kYoungFrames)
+    look_back(track, window, motion, noise);
+
+  const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;
+  return track.unseen_frames() <= std::min(patience, 2 * track.hits());
+}
+
+void BlobTracker::look_back(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion,
+                            const PixelNoise& noise) const {
+  Eigen::Vector2d place = track.path().pixel();
+  Eigen::Vector2d velocity = track.path().velocity_px_s();
+  const bool still = track.path().still();
+  const int reach = still ? window.size() : std::min(window.size(), track.frames() + kLookBackFrames);
+  for (int age = 1; age < reach; ++age) {
+    const int slot = window.slot(age), after = window.slot(age - 1);
+    if (!still) {
+      place -= velocity * seconds(window.at(after).stamp - window.at(slot).stamp);
+      const auto moved = motion.pixel_from(place, window.T_before_now(after));
+      if (!moved) return;
+      place = *moved;
+    }
+    if (age < track.frames() && !still) continue;
+    if (!track.look_back(window, slot, place, noise)) return;
+    track.set_frames(std::max(track.frames(), age + 1));
+  }
+}
+
+void BlobTracker::follow(const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
+                         const PixelNoise& noise) {
+  taken_.assign(risen.size(), false);
+  const auto mark = [&](const BlobTrack& track) {
+    for (std::size_t i = 0; i < risen.size(); ++i)
+      if ((middle(risen[i]) - track.path().pixel()).squaredNorm() < kCoverPx * kCoverPx) taken_[i] = true;
+  };
+  // The order is that of age, and kept: what old ones explain does not tempt the young.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (!follow_one(tracks_[i], window, risen, motion, noise)) continue;
+    mark(tracks_[i]);
+    if (kept != i) std::swap(tracks_[kept], tracks_[i]);
+    ++kept;
+  }
+  count_ = kept;
+  drop_twins();
+  begin_new(window, risen, noise);
+}
+
+void BlobTracker::drop_twins() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto older = tracks_.begin() + static_cast<std::ptrdiff_t>(kept);
+    const bool twin = std::any_of(tracks_.begin(), older, [&](const BlobTrack& other) {
+      return (other.path().pixel() - tracks_[i].path().pixel()).squaredNorm() < kTwinPx * kTwinPx;
+    });
+    if (twin) continue;
+    if (kept != i) std::swap(tracks_[kept], tracks_[i]);
+    ++kept;
+  }
+  count_ = kept;
+}
+
+void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, const PixelNoise& noise) {
+  for (std::size_t i = 0; i < risen.size() && count_ < tracks_.size(); ++i) {
+    if (taken_[i]) continue;
+    PathFilter path(middle(risen[i]), window_frames_);
+    path.start_moving(kFirstSigmaPx * kFirstSigmaPx, kFirstSpeedPxS);
+    BlobTrack& track = tracks_[count_];
+    track.restart(path);
+    if (track.look(window, path.pixel(), noise) != BlobTrack::Look::kSeen) continue;
+    if (covers(track.path().pixel())) continue;
+    ++count_;
+  }
+}
+
+}  // namespace lodestar

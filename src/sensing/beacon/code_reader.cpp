@@ -1,0 +1,183 @@
+#include "lodestar/sensing/beacon/code_reader.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lodestar {
+namespace {
+
+constexpr double kModelSigmaPx = 0.005;  ///< what the spot's shape leaves open of its centre
+constexpr int kMaxColumns = 7;           ///< a constant and three tones
+
+/// Residual of flux * offset = shift with the best offset.
+float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& shift, float flux_square) {
+  const float cross = (flux * shift).sum();
+  return shift.square().sum() - cross * cross / flux_square;
+}
+
+}  // namespace
+
+CodeReader::CodeReader(const CodeReaderParams& params, int slots) : params_(params), wave_(slots) {}
+
+bool CodeReader::varies(const BlobTrack& track, double dark_variance) const {
+  const auto frames = static_cast<float>(track.flux().size());
+  const float energy = (track.flux() - track.flux().mean()).square().sum();
+  return energy > dark_variance * track.filter().flux_variance() * (frames + 8 * std::sqrt(2 * frames));
+}
+
+std::optional<CodeReader::Reading> CodeReader::read_window(const BlobTrack& track, const ToneBank& bank,
+                                                           double dark_variance) {
+  const BlobTrack::Series& flux = track.flux();
+  const auto frames = static_cast<int>(flux.size());
+  projections_.noalias() = bank.basis() * flux.matrix();
+  const auto power = [&](int tone) { return projections_.segment<2>(2 * tone).squaredNorm(); };
+  const float flux_variance = track.filter().flux_variance();
+  TonePowers powers(bank.tones());
+  for (int k = 0; k < bank.tones(); ++k) powers[k] = power(k) - 2 * static_cast<float>(dark_variance) * flux_variance;
+
+  Reading reading;
+  reading.code = decide_code(powers, params_.code);
+  if (reading.code.empty()) return std::nullopt;
+  wave_.setZero();
+  float sent = 0, weakest = std::numeric_limits<float>::max();
+  int tones = 0;
+  for (int k = 0; k < bank.tones(); ++k) {
+    if (!reading.code.contains(k)) continue;
+    wave_ += (bank.basis().middleRows(2 * k, 2).transpose() * projections_.segment<2>(2 * k)).array();
+    sent += power(k);
+    weakest = std::min(weakest, power(k));
+    ++tones;
+  }
+
+  reading.mean = flux.mean();
+  const float energy = (flux - reading.mean).square().sum();
+  double residual = std::max(0.0f, energy - sent) / flux_variance;
+  int freedom = std::max(0, frames - 1 - 2 * tones);
+  if (track.path().still()) {
+    const float square = flux.square().sum();
+    residual += (offset_residual(flux, track.shift_u(), square) + offset_residual(flux, track.shift_v(), square)) /
+                track.filter().shift_variance();
+    freedom += 2 * (frames - 1);
+  }
+  reading.pixel_variance = freedom > 0 ? residual / freedom : dark_variance;
+  const float noise = static_cast<float>(std::max(dark_variance, reading.pixel_variance)) * flux_variance;
+  reading.weakest_over_noise = weakest / noise;
+  if (sent < params_.min_explained * (energy - static_cast<float>(frames - 1) * noise)) return std::nullopt;
+  return reading;
+}
+
+std::optional<CodeReader::Reading> CodeReader::read_rest(const BlobTrack& track, const FrameWindow& window,
+                                                         const ToneBank& bank, double dark_variance) {
+  using Columns = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
+  const int columns = 1 + 2 * track.code.size();
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns> normal(columns, columns);
+  normal.setZero();
+  Columns right = Columns::Zero(columns), row(columns);
+  const auto fill = [&](int slot) {
+    int c = 0;
+    row[c++] = 1;
+    for (int k = 0; k < bank.tones(); ++k) {
+      if (!track.code.contains(k)) continue;
+      row[c++] = bank.waves()(2 * k, slot);
+      row[c++] = bank.waves()(2 * k + 1, slot);
+    }
+  };
+  float mean = 0;
+  for (int age = 0; age < track.frames(); ++age) {
+    const int slot = window.slot(age);
+    fill(slot);
+    normal += row * row.transpose();
+    right += row * track.flux()[slot];
+    mean += track.flux()[slot] / static_cast<float>(track.frames());
+  }
+  const Columns x = normal.ldlt().solve(right);
+
+  float energy = 0, left = 0;
+  wave_.setZero();
+  for (int age = 0; age < track.frames(); ++age) {
+    const int slot = window.slot(age);
+    fill(slot);
+    const float flux = track.flux()[slot], model = row.dot(x);
+    wave_[slot] = model - x[0];
+    energy += (flux - mean) * (flux - mean);
+    left += (flux - model) * (flux - model);
+  }
+  Reading reading;
+  reading.code = track.code;
+  reading.mean = x[0];
+  const float flux_variance = track.filter().flux_variance();
+  reading.pixel_variance = left / static_cast<float>(std::max(1, track.frames() - columns)) / flux_variance;
+  const float noise = static_cast<float>(std::max(dark_variance, reading.pixel_variance)) * flux_variance;
+  float weakest = std::numeric_limits<float>::max();
+  for (int c = 1; c < columns; c += 2)
+    weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
+  reading.weakest_over_noise = weakest / noise;
+  if (left > (1 - params_.min_explained) * energy + static_cast<float>(track.frames()) * noise) return std::nullopt;
+  return reading;
+}
+
+bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading) const {
+  // An on-off beacon is further from its tone than one that is dimmed.
+  const float limit = (reading.code.size() == 1 ? 1.6f : 0.7f) * reading.mean;
+  const float sigma = std::sqrt(static_cast<float>(reading.pixel_variance) * track.filter().flux_variance());
+  float missing = 0;
+  for (int age = 0; age < track.frames(); ++age) {
+    const int slot = window.slot(age);
+    const float expected = reading.mean + wave_[slot], flux = track.flux()[slot];
+    if (flux > 0.3f * expected || expected - flux < 3 * sigma) {
+      if (expected > 0.3f * reading.mean) break;  // its light is there
+      continue;                                   // it is dark by itself
+    }
+    missing += expected;
+    if (missing > limit) return true;
+  }
+  return false;
+}
+
+void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) const {
+  // What else shines beside the blob, steadily, pulls the mean of all its light; the code's part alone is not pulled.
+  const float square = wave_.square().sum();
+  const double variance =
+      std::max(reading.pixel_variance, 1e-6) * track.filter().shift_variance() / static_cast<double>(square);
+  const Eigen::Vector2d offset(static_cast<double>((wave_ * track.shift_u()).sum() / square),
+                               static_cast<double>((wave_ * track.shift_v()).sum() / square));
+  const Eigen::Vector2d pixel = track.anchor() + offset;
+  const bool faint = track.hits() < track.frames() / 4;
+  constexpr double kPulledPx = 0.02, kPulledSigmas2 = 12;
+  if (faint || (pixel - track.path().pixel()).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * variance)
+    track.path().correct(pixel, variance);
+}
+
+std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                         double power_threshold, double dark_variance) {
+  const bool whole = track.frames() == window.capacity();
+  if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity())) return std::nullopt;
+  const auto reading =
+      whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
+  if (!reading) return std::nullopt;
+  if (whole) track.learn_noise(reading->pixel_variance, dark_variance);
+  if (reading->weakest_over_noise < power_threshold) return std::nullopt;
+  if (has_gone(track, window, *reading)) {
+    track.code = reading->code;
+    track.hide();
+    return std::nullopt;
+  }
+  if (whole) {
+    track.code = reading->code;
+    track.hidden = false;
+    if (track.path().still()) refine_centre(track, *reading);
+  }
+  track.confirm();
+
+  Sighting sighting;
+  sighting.pixel = track.path().pixel();
+  sighting.covariance = Eigen::Matrix2d::Identity() * (track.path().variance() + kModelSigmaPx * kModelSigmaPx);
+  sighting.tones = reading->code;
+  sighting.snr_db = 10.0 * std::log10(reading->weakest_over_noise / 2.0);
+  sighting.saturated = track.saturated();
+  return sighting;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,78 @@
+#include "lodestar/sensing/beacon/flash_search.hpp"
+
+#include <cmath>
+
+#include "lodestar/sensing/beacon/spot_filter.hpp"
+
+namespace lodestar {
+namespace {
+
+template <class Pixel>
+float cell_sum(const Image& image, const Eigen::Vector2i& pixel) {
+  const Pixel *upper = image.row<Pixel>(pixel.y()) + pixel.x(), *lower = image.row<Pixel>(pixel.y() + 1) + pixel.x();
+  return static_cast<float>(upper[0]) + static_cast<float>(upper[1]) + static_cast<float>(lower[0]) +
+         static_cast<float>(lower[1]);
+}
+
+}  // namespace
+
+FlashSearch::FlashSearch(int slots) : light_(slots), wave_(slots) {}
+
+std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, const ToneBank& bank,
+                                                    const Eigen::Vector2i& pixel, double power_threshold,
+                                                    const PixelNoise& noise) {
+  constexpr double kCellShare = 0.25;
+  constexpr int kCellPixels = 4;
+  for (int slot = 0; slot < window.capacity(); ++slot) {
+    const Image& image = window.at(slot);
+    light_[slot] = image.bits == 8 ? cell_sum<std::uint8_t>(image, pixel) : cell_sum<std::uint16_t>(image, pixel);
+  }
+  powers_.noalias() = bank.basis() * light_;
+  Eigen::Index tone = 0;
+  float strongest = 0;
+  for (Eigen::Index k = 0; k < bank.tones(); ++k) {
+    const float power = powers_.segment<2>(2 * k).squaredNorm();
+    if (power > strongest) {
+      strongest = power;
+      tone = k;
+    }
+  }
+  if (strongest < kCellShare * power_threshold * kCellPixels * noise.dark_variance) return std::nullopt;
+
+  // The tone's amplitude in each pixel, along the cell's phase: an image of this light alone.
+  wave_.noalias() = bank.basis().middleRows(2 * tone, 2).transpose() * powers_.segment<2>(2 * tone);
+  wave_ /= std::sqrt(strongest);
+  Patch amplitude, frame;
+  Eigen::Vector2i middle = pixel;
+  Eigen::Vector2d place = pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
+  SpotFilter filter;
+  std::optional<Flash> found;
+  for (int step = 0; step < 6; ++step) {
+    const Eigen::Vector2i nearest = place.array().round().matrix().cast<int>();
+    if (step == 0 || nearest != middle) {
+      middle = nearest;
+      amplitude.values.setZero();
+      for (int slot = 0; slot < window.capacity(); ++slot) {
+        if (!frame.read(window.at(slot), middle)) return std::nullopt;
+        amplitude.values += wave_[slot] * frame.values;
+      }
+      amplitude.centre = middle;
+    }
+    if (step == 0) {
+      place = amplitude.centroid();
+      if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;
+      continue;
+    }
+    filter.design(place - middle.cast<double>(), SpotShape());
+    const SpotLight light = filter.read(amplitude);
+    if (light.flux <= 0) return std::nullopt;
+    const Eigen::Vector2d shift = (light.shift / light.flux).cast<double>();
+    place += shift * std::min(1.0, 0.7 / std::max(1e-9, shift.norm()));
+    if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;
+    found = Flash{place, noise.dark_variance * filter.shift_variance() / (light.flux * light.flux)};
+    if (shift.norm() < 0.02) break;
+  }
+  return found;
+}
+
+}  // namespace lodestar
