@@ -119,8 +119,11 @@ void BeaconDetector::choose_lags() {
 void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
   int misses = 0;
   for (const ChangeScan::Change& change : scan_.restless()) {
-    if (misses == scan_.budget()) return;
     if (tracker_.covers(change.pixel.cast<double>())) continue;
+    if (misses == scan_.budget()) {
+      scan_.defer(change.pixel);
+      continue;
+    }
     const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, noise);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
     bool found = track != nullptr;

@@ -69,9 +69,12 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
     }
     if (best < risen.size()) place = middle(risen[best]);
   }
+  const bool was_still = track.path().still();
   const auto look = track.look(window, place, noise);
   if (look == BlobTrack::Look::kOutside || !motion.camera->contains(track.path().pixel())) return false;
-  if (look == BlobTrack::Look::kSeen && young && track.age_frames() == kYoungFrames)
+  // What has come to rest, or is just known, was there before: its window need not fill up from now on.
+  const bool rests = !was_still && track.path().still() && !track.hidden;
+  if (rests || (look == BlobTrack::Look::kSeen && young && track.age_frames() == kYoungFrames))
     look_back(track, window, motion, noise);
 
   const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;

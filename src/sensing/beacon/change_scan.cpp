@@ -41,7 +41,14 @@ double clipped_mean(int count, double variance, Next&& next_square) {
 ChangeScan::ChangeScan(int window_frames)
     : forget_bits_(std::clamp(static_cast<int>(std::lround(std::log2(0.5 * window_frames))), 1, 6)),
       // The energy of a 16-bit lane that is always clipped: clip^2 2^bits, below 2^15.
-      clip_(static_cast<int>(std::sqrt(32767.0 / (1 << forget_bits_)))) {}
+      clip_(static_cast<int>(std::sqrt(32767.0 / (1 << forget_bits_)))) {
+  const double unit = clip_ / kReachSigmas;  // what one sigma of a difference is scaled to
+  energy_mean_ = static_cast<float>(unit * unit * (1 << forget_bits_));
+  // Differences at one lag are correlated (-1/2), which makes the variance of a sum of their squares 3/2 times that of
+  // independent ones: 3 unit^4 a frame, over the forgetting's sum of squared weights.
+  const double keep = 1 - std::pow(0.5, forget_bits_);
+  energy_sigma_ = static_cast<float>(unit * unit * std::sqrt(3.0 / (1 - keep * keep)));
+}
 
 void ChangeScan::set_lags(int even, int odd) {
   lags_[0] = even;
@@ -60,18 +67,6 @@ std::size_t ChangeScan::bytes() const {
 }
 
 double ChangeScan::pixel_variance() const { return std::max(cell_variance_, kLeastCellVariance) / 8; }
-
-float ChangeScan::energy_mean() const {
-  const double unit = clip_ / kReachSigmas;  // what one sigma of a difference is scaled to
-  return static_cast<float>(unit * unit * (1 << forget_bits_));
-}
-
-float ChangeScan::energy_sigma() const {
-  // Differences at one lag are correlated (-1/2), which makes the variance of a sum of their squares 3/2 times that of
-  // independent ones: 3 unit^4 a frame, over the forgetting's sum of squared weights.
-  const double unit = clip_ / kReachSigmas, keep = 1 - std::pow(0.5, forget_bits_);
-  return static_cast<float>(unit * unit * std::sqrt(3.0 / (1 - keep * keep)));
-}
 
 std::size_t ChangeScan::tile(int column, int row) const {
   return static_cast<std::size_t>((row / kTileRows) * segments_ + column / kSegment);
@@ -124,7 +119,7 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
   const float sink = kLimitStep * static_cast<float>(budget_) / static_cast<float>(tile_limit_.size());
   for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
     tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink);
-    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, energy_mean() + tile_limit_[i] * energy_sigma()));
+    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, energy_mean_ + tile_limit_[i] * energy_sigma_));
   }
 
   const auto kernel = kernel_for(Lane{});
@@ -188,12 +183,11 @@ void ChangeScan::measure_noise(const Planes<Lane>&, const std::vector<Lane>& now
 template <class Lane>
 void ChangeScan::collect(const Planes<Lane>& planes, const std::vector<Lane>& now, const std::vector<Lane>& before) {
   const int stride = segments_ * kSegment;
-  const double risen_limit = kRisenSigmas * std::sqrt(cell_variance_);
-  const auto difference = [&](std::ptrdiff_t i) { return static_cast<float>(now[static_cast<std::size_t>(i)]) - static_cast<float>(before[static_cast<std::size_t>(i)]); };
-  const auto energy = [&](std::ptrdiff_t i) { return static_cast<float>(planes.energy[static_cast<std::size_t>(i)]); };
+  const auto difference = [&](std::ptrdiff_t i) { return static_cast<int>(now.data()[i]) - before.data()[i]; };
+  const auto energy = [&](std::ptrdiff_t i) { return static_cast<int>(planes.energy.data()[i]); };
   // Of two equal neighbours the first one counts.
   const auto is_peak = [&](std::ptrdiff_t i, auto&& value) {
-    const float here = value(i);
+    const int here = value(i);
     for (const std::ptrdiff_t d : {-stride - 1, -stride, -stride + 1, -1})
       if (value(i + d) >= here) return false;
     for (const std::ptrdiff_t d : {stride + 1, stride, stride - 1, 1})
@@ -201,19 +195,27 @@ void ChangeScan::collect(const Planes<Lane>& planes, const std::vector<Lane>& no
     return true;
   };
   const float sigma = static_cast<float>(std::sqrt(cell_variance_));
+  const auto risen_limit = static_cast<Lane>(kRisenSigmas * sigma);
   for (int row = 1; row < rows_ - 1; ++row) {
     const std::uint8_t* flags = flags_.data() + row * segments_;
     for (int segment = 0; segment < segments_; ++segment) {
       if (flags[segment] == 0) continue;
-      const float limit = planes.limit[tile(segment * kSegment, row)];
-      const int end = std::min((segment + 1) * kSegment, columns_ - 1);
-      for (int column = std::max(1, segment * kSegment); column < end; ++column) {
-        const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(row) * stride + column;
-        const Eigen::Vector2i pixel(2 * column, 2 * row);
-        if ((flags[segment] & kFlagRisen) && difference(i) > risen_limit && is_peak(i, difference))
-          risen_.push_back({pixel, difference(i) / sigma});
-        if ((flags[segment] & kFlagRestless) && energy(i) > limit && is_peak(i, energy))
-          restless_.push_back({pixel, (energy(i) - energy_mean()) / energy_sigma()});
+      const Lane limit = planes.limit[tile(segment * kSegment, row)];
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * stride + segment * kSegment;
+      std::uint8_t hits[kSegment];
+      for (int c = 0; c < kSegment; ++c) {  // plain arithmetic: becomes vector code
+        const Lane rise = static_cast<Lane>(now.data()[first + c] - before.data()[first + c]);
+        hits[c] = static_cast<std::uint8_t>((planes.energy.data()[first + c] > limit ? kFlagRestless : 0) |
+                                            (rise > risen_limit ? kFlagRisen : 0));
+      }
+      const int begin = segment == 0 ? 1 : 0, end = std::min(kSegment, columns_ - 1 - segment * kSegment);
+      for (int c = begin; c < end; ++c) {
+        if (hits[c] == 0) continue;
+        const Eigen::Vector2i pixel(2 * (segment * kSegment + c), 2 * row);
+        if ((hits[c] & kFlagRisen) && is_peak(first + c, difference))
+          risen_.push_back({pixel, static_cast<float>(difference(first + c)) / sigma});
+        if ((hits[c] & kFlagRestless) && is_peak(first + c, energy))
+          restless_.push_back({pixel, (static_cast<float>(energy(first + c)) - energy_mean_) / energy_sigma_});
       }
     }
   }
@@ -230,6 +232,8 @@ void ChangeScan::settle(const Eigen::Vector2i& pixel, bool found) {
     settle_in(wide_, cell, found);
   }
 }
+
+void ChangeScan::defer(const Eigen::Vector2i& pixel) { tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)] += kLimitStep; }
 
 template <class Lane>
 void ChangeScan::settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found) {

@@ -26,7 +26,6 @@ void PathFilter::start_moving(double variance, double sigma_px_s) {
   velocity_.setZero();
   acceleration_.setZero();
   quiet_frames_ = 0;
-  quiet_pixel_ = pixel_;
 }
 
 double PathFilter::variance() const { return still_ ? squares_ / (information_ * information_) : P_(0, 0); }
@@ -93,14 +92,14 @@ void PathFilter::move(const Eigen::Vector2d& innovation, double variance) {
   const double surprise = 0.5 * innovation.squaredNorm() / S;
   jerk_density_ = std::clamp(jerk_density_ * (surprise > 3 ? 3.0 : surprise < 1 ? 0.93 : 1.0), kMinJerk, kMaxJerk);
 
-  constexpr double kQuietPx = 0.15;
-  constexpr int kQuietFrames = 12;
-  const double reach = kQuietPx + 2.0 * std::sqrt(S);
-  if ((pixel_ - quiet_pixel_).norm() > std::min(reach, 0.6)) {
+  constexpr double kQuietPx = 0.15, kMaxQuietPx = 0.6;
+  const int quiet_for = std::clamp(memory_frames_ / 3, 3, 12);
+  const double reach = std::min(kQuietPx + 2.0 * std::sqrt(S), kMaxQuietPx);
+  if (quiet_frames_ == 0 || (pixel_ - quiet_pixel_).norm() > reach) {
     quiet_pixel_ = pixel_;
-    quiet_frames_ = 0;
-  } else if (++quiet_frames_ >= kQuietFrames) {
-    start_still(std::max(P_(0, 0), S / kQuietFrames));
+    quiet_frames_ = 1;
+  } else if (++quiet_frames_ > quiet_for) {
+    start_still(std::max(P_(0, 0), S / quiet_for));
   }
 }
 

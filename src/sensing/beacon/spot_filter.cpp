@@ -129,8 +129,8 @@ void SpotFilter::design(const Eigen::Vector2d& place, const SpotShape& shape) {
 }
 
 SpotLight SpotFilter::read(const Patch& patch) const {
-  const Eigen::Array4f light = (filters_.colwise() * patch.values).colwise().sum().transpose();
-  return {light[0], {light[1], light[2]}, light[3]};
+  const auto dot = [&](int c) { return (filters_.col(c) * patch.values).sum(); };
+  return {dot(0), {dot(1), dot(2)}, dot(3)};
 }
 
 }  // namespace lodestar

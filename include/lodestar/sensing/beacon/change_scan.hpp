@@ -38,8 +38,10 @@ class ChangeScan {
   /// Something was found at this pixel, or nothing: both set the energy around it to zero. Nothing raises the limit
   /// of its tile, so that a restless surface (sun, shot noise of a lamp) costs no more than its share.
   void settle(const Eigen::Vector2i& pixel, bool found);
+  /// There was no time to look: the tile's limit rises.
+  void defer(const Eigen::Vector2i& pixel);
 
-  /// How many settled cells without a find a frame is good for, over the whole image.
+  /// How many cells without a find a frame is good for, over the whole image.
   int budget() const { return budget_; }
 
   /// Temporal variance of a dark pixel, grey levels squared: a clipped mean over the image, never below the variance
@@ -69,10 +71,9 @@ class ChangeScan {
   template <class Lane>
   void settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found);
   std::size_t tile(int column, int row) const;
-  float energy_mean() const;
-  float energy_sigma() const;
 
   int forget_bits_, clip_;
+  float energy_mean_, energy_sigma_;  ///< of a dark cell
   int lags_[2] = {1, 2};
   int columns_ = 0, rows_ = 0, segments_ = 0, bits_ = 0, budget_ = 0;
   std::uint64_t frames_ = 0;
