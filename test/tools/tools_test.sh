@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# simulate, replay and evaluate one after the other, as a user would, and what they say to wrong input.
+# The tools one after the other, as a user would run them, and what they say to wrong input.
 # Usage: tools_test.sh <folder of the programs> <source folder>
 set -euo pipefail
 bin=$1 source=$2
@@ -43,6 +43,20 @@ head -n 1 drive.csv >empty.csv
 "$bin/evaluate" --truth drive.bag --estimate empty.csv --json empty.json
 /usr/bin/python3 -c 'import json; r = json.load(open("empty.json")); assert r["all"]["samples"] == 0 and r["time_to_first_fix_s"] is None, r'
 
+camera="--fps 30 --window 30 --mains 50"
+cat >survey.yaml <<'YAML'
+site: {name: survey}
+beacons: [{id: 1, position_m: [2, 2, 8]}, {id: 2, position_m: [9, 2, 8]}, {id: 3, position_m: [60, 2, 8]}]
+YAML
+"$bin/plan_codes" $camera --waveform sine --beacons survey.yaml --out planned.yaml --plot planned.png | tee plan.txt
+grep -q "carries .* beacons/m2" plan.txt || fail "plan_codes does not say how many beacons it can carry"
+[ -s planned.png ] || fail "no plot of the plan"
+"$bin/replay" --site planned.yaml --bag drive.bag --out planned.csv
+refused 1 "2 codes" "$bin/plan_codes" --fps 10 --window 5 --mains 50 --waveform square --beacons survey.yaml
+refused 1 "survey.yaml: beacon 1 hangs" "$bin/plan_codes" $camera --waveform sine --beacons survey.yaml --camera-height 9
+refused 1 "use --slots 2" "$bin/plan_codes" $camera --waveform sine --beacons survey.yaml --slots 1
+refused 1 "sine or square" "$bin/plan_codes" $camera --waveform saw --beacons survey.yaml
+
 head -c 20000 drive.bag >torn.bag
 refused 1 torn.bag "$bin/replay" --site "$source/test/ros/site.yaml" --bag torn.bag --out e.csv
 refused 1 nothere.bag "$bin/replay" --site "$source/test/ros/site.yaml" --bag nothere.bag --out e.csv
@@ -52,7 +66,7 @@ refused 2 "site" "$bin/replay" --bag drive.bag --out e.csv
 sed 's/^\([0-9.]*\),[^,]*/\1,nan/' drive.csv >nan.csv
 refused 1 "nan.csv:2" "$bin/evaluate" --truth drive.bag --estimate nan.csv
 refused 1 "duration" "$bin/accuracy" --scenario "$source/test/ros/scenario.yaml" --duration nan
-for tool in simulate replay evaluate paper_experiment accuracy; do
+for tool in simulate replay evaluate paper_experiment accuracy plan_codes; do
   "$bin/$tool" --help | grep -q "Examples:" || fail "$tool --help has no examples"
 done
 echo "all tools do as they say"

@@ -22,6 +22,14 @@ const std::vector<YamlKey> kLinkKeys = {
 const std::vector<YamlKey> kBeaconKeys = {{"id", true},   {"position_m", true}, {"tones_hz", true},
                                           {"slot", true}, {"waveform", false},  {"sigma_m", false}};
 
+/// The same keys where the code plan is still to be made.
+std::vector<YamlKey> unplanned(std::vector<YamlKey> keys) {
+  for (YamlKey& key : keys)
+    for (const char* planned : {"tone_table_hz", "tones_hz", "slot"})
+      if (std::string(planned) == key.name) key.required = false;
+  return keys;
+}
+
 /// Announcements carry whole mm in 32 bits.
 constexpr double kFarthest_m = std::numeric_limits<std::int32_t>::max() * 1e-3;
 constexpr double kHighestTone_hz = 1000.0;
@@ -41,6 +49,7 @@ void read_identity(const YamlMap& map, Site& site) {
 void read_key(const YamlMap& map, const std::string& site_file, Link& link) {
   const std::string key_file = map.text("key_file").value_or("");
   if (key_file.empty()) return;
+  link.key_file = key_file;
   const auto path = std::filesystem::path(site_file).parent_path() / key_file;
   std::string why;
   link.key = read_key_file(path.string(), why);
@@ -116,48 +125,77 @@ Waveform read_waveform(const YamlMap& map, const std::optional<ToneSet>& tones) 
   return text == "square" ? Waveform::kSquare : Waveform::kSine;
 }
 
-BeaconDraft read_beacon(const YamlMap& map, const Site& site, FaultLog& faults) {
+/// What a survey knows: id and place.
+BeaconDraft read_place(const YamlMap& map) {
   BeaconDraft draft;
   draft.line = map.line();
   draft.id_line = map.line("id");
-  draft.tones_line = map.line("tones_hz");
-  draft.slot_line = map.line("slot");
   const auto id = map.integer("id", within(1, std::numeric_limits<std::uint32_t>::max()));
   if (id) draft.id = BeaconId{static_cast<std::uint32_t>(*id)};
   const auto position = map.numbers("position_m", 3, 3, within(-kFarthest_m, kFarthest_m));
   if (position) draft.position_map = Eigen::Vector3d((*position)[0].value, (*position)[1].value, (*position)[2].value);
-  draft.tones = read_tones(map, site.tone_table_hz, faults);
-  const auto slot = map.integer("slot", within(0, site.link.slot_count - 1));
-  if (slot) draft.slot = static_cast<int>(*slot);
-  draft.waveform = read_waveform(map, draft.tones);
   draft.sigma_m = map.number("sigma_m", above(0, 1)).value_or(draft.sigma_m);
   return draft;
 }
 
-std::vector<Beacon> read_beacons(const YamlMap& file, const Site& site, FaultLog& faults) {
+BeaconDraft read_beacon(const YamlMap& map, const Site& site, FaultLog& faults) {
+  BeaconDraft draft = read_place(map);
+  draft.tones_line = map.line("tones_hz");
+  draft.slot_line = map.line("slot");
+  draft.tones = read_tones(map, site.tone_table_hz, faults);
+  const auto slot = map.integer("slot", within(0, site.link.slot_count - 1));
+  if (slot) draft.slot = static_cast<int>(*slot);
+  draft.waveform = read_waveform(map, draft.tones);
+  return draft;
+}
+
+/// The entries of the list, each read by `read`, and what they get wrong together.
+template <class Read>
+std::vector<BeaconDraft> read_drafts(const YamlMap& file, const std::vector<YamlKey>& keys, FaultLog& faults,
+                                     Read&& read) {
   std::vector<BeaconDraft> drafts;
   const std::vector<YAML::Node> nodes = file.list("beacons");
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const YamlMap map(nodes[i], "beacons[" + std::to_string(i) + "]", file.line("beacons"), kBeaconKeys, faults);
-    drafts.push_back(read_beacon(map, site, faults));
-  }
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    drafts.push_back(read(YamlMap(nodes[i], "beacons[" + std::to_string(i) + "]", file.line("beacons"), keys, faults)));
   check_clashes(drafts, faults);
+  return drafts;
+}
 
+std::vector<Beacon> read_beacons(const YamlMap& file, const Site& site, FaultLog& faults) {
+  const auto read = [&](const YamlMap& map) { return read_beacon(map, site, faults); };
   std::vector<Beacon> beacons;
-  for (const BeaconDraft& draft : drafts)
+  for (const BeaconDraft& draft : read_drafts(file, kBeaconKeys, faults, read))
     if (draft.id && draft.position_map && draft.tones && draft.slot)
       beacons.push_back({*draft.id, *draft.position_map, *draft.tones, *draft.slot, draft.waveform, draft.sigma_m});
   return beacons;
 }
 
-Site read_site(const YAML::Node& root, FaultLog& faults) {
-  const YamlMap file(root, "", 1, kFileKeys, faults);
+Site read_frame(const YamlMap& file, const std::string& file_name) {
   Site site;
   read_identity(file.section("site", kSiteKeys), site);
-  site.link = read_link(file.section("link", kLinkKeys), faults.file());
+  site.link = read_link(file.section("link", kLinkKeys), file_name);
+  return site;
+}
+
+Site read_site(const YAML::Node& root, FaultLog& faults) {
+  const YamlMap file(root, "", 1, kFileKeys, faults);
+  Site site = read_frame(file, faults.file());
   read_tone_table(file, faults, site);
   site.beacons = read_beacons(file, site, faults);
   return site;
+}
+
+Site read_survey(const YAML::Node& root, FaultLog& faults) {
+  const YamlMap file(root, "", 1, unplanned(kFileKeys), faults);
+  Site site = read_frame(file, faults.file());
+  for (const BeaconDraft& draft : read_drafts(file, unplanned(kBeaconKeys), faults, read_place))
+    if (draft.id && draft.position_map)
+      site.beacons.push_back({*draft.id, *draft.position_map, {}, 0, Waveform::kSine, draft.sigma_m});
+  return site;
+}
+
+Result<Site, Faults> parse_survey(const std::string& text, const std::string& file_name) {
+  return parse_file<Site>(text, file_name, read_survey);
 }
 
 }  // namespace
@@ -167,5 +205,7 @@ Result<Site, Faults> parse_site(const std::string& text, const std::string& file
 }
 
 Result<Site, Faults> load_site(const std::string& path) { return load_file<Site>(path, parse_site); }
+
+Result<Site, Faults> load_survey(const std::string& path) { return load_file<Site>(path, parse_survey); }
 
 }  // namespace lodestar

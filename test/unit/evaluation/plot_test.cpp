@@ -114,6 +114,19 @@ TEST_F(Plot, DrawsAnErrorMap) {
   expect_png(png);
 }
 
+TEST_F(Plot, DrawsASite) {
+  const Drive drive;
+  SitePlot plot{"a site's codes", drive.site, {8, 8}, 16};
+  plot.site.tone_table_hz = {6, 8.5, 10};
+  for (std::size_t i = 0; i < plot.site.beacons.size(); ++i)
+    plot.site.beacons[i].tones = i % 2 ? ToneSet{0, 1} : ToneSet{1, 2};
+  const fs::path png = folder_ / "site.png";
+  plot_site(png.string(), plot);
+  expect_png(png);
+  plot.site.beacons.clear();
+  EXPECT_THROW(plot_site(png.string(), plot), PlotError);
+}
+
 TEST_F(Plot, SaysWhatIsMissing) {
   const Drive drive;
   const TrajectoryError error = trajectory_error(drive.truth, drive.estimate);

@@ -32,6 +32,7 @@ struct Link {
   double slot_s = 0.025;
   int slot_count = 32;
   std::optional<std::array<std::uint8_t, 16>> key;  ///< of the site; when set, unsigned frames are refused
+  std::string key_file;                             ///< as the site file names it; empty: no key
 };
 
 /// The surveyed site: shared interface "Site file". Reference: docs/nodes/site_and_vehicle_files.md.
@@ -65,6 +66,13 @@ Result<Site, Faults> load_site(const std::string& path);
 /// The same for text at hand. `file_name` is for the faults and for a relative key_file. Throws nothing, whatever the
 /// text holds.
 Result<Site, Faults> parse_site(const std::string& text, const std::string& file_name);
+
+/// Reads a site file for code planning: as load_site, but no beacon needs tones_hz or slot and the file no tone_table_hz;
+/// where they are, they are passed over, as is waveform. Tone table and codes are empty, slots 0.
+Result<Site, Faults> load_survey(const std::string& path);
+
+/// The site as text that parse_site reads back to the same site.
+std::string to_yaml(const Site& site);
 
 /// Checks the tones against a frame rate: above Nyquist, or on an alias of the mains' flicker (100 and 120 Hz and their
 /// multiples fold to |m - k fs|), or closer to one another (or to 0 Hz) than rate / window. `path` is for the faults

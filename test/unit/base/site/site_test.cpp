@@ -249,5 +249,70 @@ TEST_F(KeyedSite, a_wrong_key_is_a_fault_that_does_not_show_it) {
   }
 }
 
+TEST_F(KeyedSite, is_written_with_the_name_of_its_key_file) {
+  const auto site = load("000102030405060708090a0b0c0d0e0f");
+  ASSERT_TRUE(site.ok()) << describe(site.error());
+  EXPECT_NE(to_yaml(*site).find("key_file: \"lodestar_site_test.key\""), std::string::npos);
+  EXPECT_EQ(to_yaml(*site).find("0001"), std::string::npos);
+}
+
+/// The text is that of the same site: read again and written again it is the same.
+TEST(SiteText, is_read_back_to_the_same_site) {
+  auto site = parse_site(kGood, "s.yaml");
+  ASSERT_TRUE(site.ok()) << describe(site.error());
+  Site odd = *site;
+  odd.name = "\"hall\": {12}\n# no";
+  odd.tone_table_hz = {6.6667, 8.3333};
+  odd.beacons.resize(1);
+  odd.beacons[0].tones = ToneSet{0, 1};
+  odd.beacons[0].position_map = {-2147483.647, 1e-3, 12.345678};
+  Site empty = *site;
+  empty.beacons.clear();
+  for (const Site& one : {*site, odd, empty}) {
+    const auto read = parse_site(to_yaml(one), "s.yaml");
+    ASSERT_TRUE(read.ok()) << describe(read.error()) << to_yaml(one);
+    EXPECT_EQ(read->name, one.name);
+    EXPECT_EQ(read->tone_table_hz, one.tone_table_hz);
+    ASSERT_EQ(read->beacons.size(), one.beacons.size());
+    for (std::size_t i = 0; i < one.beacons.size(); ++i) {
+      EXPECT_EQ(read->beacons[i].position_map, one.beacons[i].position_map);
+      EXPECT_EQ(read->beacons[i].tones, one.beacons[i].tones);
+      EXPECT_EQ(read->beacons[i].waveform, one.beacons[i].waveform);
+    }
+    EXPECT_EQ(to_yaml(*read), to_yaml(one));
+  }
+}
+
+class Survey : public testing::Test {
+ protected:
+  static Result<Site, Faults> load(const std::string& text) {
+    const std::string path = testing::TempDir() + "lodestar_survey_test.yaml";
+    std::ofstream(path) << text;
+    auto survey = load_survey(path);
+    std::remove(path.c_str());
+    return survey;
+  }
+};
+
+TEST_F(Survey, needs_id_and_position_only) {
+  const auto survey = load("site: {name: x}\nbeacons:\n  - {id: 7, position_m: [1, 2, 3], sigma_m: 0.02}\n");
+  ASSERT_TRUE(survey.ok()) << describe(survey.error());
+  ASSERT_EQ(survey->beacons.size(), 1u);
+  EXPECT_EQ(survey->beacons[0].id, BeaconId{7});
+  EXPECT_EQ(survey->beacons[0].position_map, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(survey->beacons[0].sigma_m, 0.02);
+  EXPECT_TRUE(survey->beacons[0].tones.empty());
+}
+
+/// Codes and slots are to be made anew: what clashes or is not in the table is no fault, whatever else is wrong is.
+TEST_F(Survey, passes_over_codes_and_slots_only) {
+  EXPECT_TRUE(load(replaced(kGood, "tones_hz: [6, 10]", "tones_hz: [26, 11]")).ok());
+  EXPECT_TRUE(load(replaced(kGood, "slot: 0", "slot: 31")).ok());
+  EXPECT_NE(faults_of(load(replaced(kGood, "id: 1,", "id: 4294967295,"))).find(":6: id 4294967295 is taken"),
+            std::string::npos);
+  EXPECT_NE(faults_of(load(replaced(kGood, "8.02", ".nan"))).find(":5: beacons[0].position_m[2]"), std::string::npos);
+  EXPECT_NE(faults_of(load(replaced(kGood, "slot: 0", "slots: 0"))).find("did you mean \"slot\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lodestar
