@@ -36,12 +36,15 @@ double crossing_db(const std::vector<std::pair<double, double>>& curve, double p
 
 void report_probability() {
   std::printf(
-      "\n## Detection probability\n\nVGA, 25 frames/s, one tone of two (5 and 10 Hz), noise 2 grey levels and rounding, "
+      "\n## Detection probability\n\nVGA, 25 frames/s, one tone of two (5 and 10 Hz), noise 2 grey levels and "
+      "rounding, "
       "PSF sigma 0.9 px, sub-pixel and tone phase at random. SNR: N a^2 / (4 s2) in the brightest pixel, after the "
       "window. Theory: one pixel, one tone, noncentral chi-square with 2 degrees of freedom, threshold %.1f for one "
       "false alarm an hour. Offset: measured less theory, negative is better.\n\n",
       test::DetectionTrials().threshold());
-  std::printf("| N | Pd, measured / theory, at theory's SNR for 0.5 less 2, 1, 0, plus 1, 2, 3, 4 dB | offset at 0.5 | offset at 0.99 |\n|---|---|---|---|\n");
+  std::printf(
+      "| N | Pd, measured / theory, at theory's SNR for 0.5 less 2, 1, 0, plus 1, 2, 3, 4 dB | offset at 0.5 | offset "
+      "at 0.99 |\n|---|---|---|---|\n");
   for (const int window : {5, 10, 15, 30, 60}) {
     test::DetectionTrials trials;
     trials.window_frames = window;
@@ -55,8 +58,8 @@ void report_probability() {
       std::snprintf(cell, sizeof(cell), " %.3f/%.3f", measured, trials.theory(half_db + offset_db));
       if (std::abs(offset_db - std::round(offset_db)) < 0.1) cells += cell;
     }
-    std::printf("| %d |%s | %+.2f dB | %+.2f dB |\n", window, cells.c_str(),
-                crossing_db(curve, 0.5) - half_db, crossing_db(curve, 0.99) - trials.theory_snr_db(0.99));
+    std::printf("| %d |%s | %+.2f dB | %+.2f dB |\n", window, cells.c_str(), crossing_db(curve, 0.5) - half_db,
+                crossing_db(curve, 0.99) - trials.theory_snr_db(0.99));
     std::fflush(stdout);
   }
 }
@@ -64,10 +67,14 @@ void report_probability() {
 void report_alarms() {
   std::printf(
       "\n## False alarms\n\nVGA at 25 frames/s, no light. The stated rate is raised by a factor until it can be "
-      "counted; noise has exponential tails in power, P(> x) = exp(-x / 2), so each factor of ten moves the threshold by "
-      "4.6, and a ratio that does not grow from line to line carries over to the default. Events: sightings that do not "
+      "counted; noise has exponential tails in power, P(> x) = exp(-x / 2), so each factor of ten moves the threshold "
+      "by "
+      "4.6, and a ratio that does not grow from line to line carries over to the default. Events: sightings that do "
+      "not "
       "continue one of the N frames before.\n\n");
-  std::printf("| N | ceiling | factor | hours | stated | sightings | events | sightings / stated |\n|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| N | ceiling | factor | hours | stated | sightings | events | sightings / stated "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   const auto line = [](int window, bool uneven, double factor, int frames) {
     test::FalseAlarms alarms;
     alarms.window_frames = window;
@@ -93,7 +100,9 @@ void report_centre() {
       "clips. Electrons: of the beacon, in one frame on average. CRB: Cramer-Rao bound with an unknown constant behind "
       "each pixel; in brackets the ratio to the bound where a flat background is known. NEES: normalised error squared "
       "of the reported covariance, mean over both axes, with its 99 %% band.\n\n");
-  std::printf("| tones | PSF sigma | electrons | seen | rms px | rms / CRB | NEES | band |\n|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| tones | PSF sigma | electrons | seen | rms px | rms / CRB | NEES | band "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   for (const int tones : {1, 2}) {
     for (const double sigma_px : {0.5, 0.7, 1.0, 1.5}) {
       for (const double electrons : {300., 1000., 3000., 10000., 30000., 100000.}) {
@@ -103,10 +112,10 @@ void report_centre() {
         trials.electrons = electrons;
         trials.run(scaled(700), 1);
         const double dof = 2 * std::max(1, trials.seen);
-        std::printf("| %d | %.1f | %.0f | %.3f | %.5f | %.2f (%.2f) | %.2f | %.2f .. %.2f |\n", tones, sigma_px, electrons,
-                    static_cast<double>(trials.seen) / trials.trials, trials.rms_px(), trials.rms_px() / trials.crb_px(),
-                    trials.rms_px() / trials.crb_known_background_px(), trials.mean_nees(),
-                    chi_square_quantile(0.005, dof) / dof, chi_square_quantile(0.995, dof) / dof);
+        std::printf("| %d | %.1f | %.0f | %.3f | %.5f | %.2f (%.2f) | %.2f | %.2f .. %.2f |\n", tones, sigma_px,
+                    electrons, static_cast<double>(trials.seen) / trials.trials, trials.rms_px(),
+                    trials.rms_px() / trials.crb_px(), trials.rms_px() / trials.crb_known_background_px(),
+                    trials.mean_nees(), chi_square_quantile(0.005, dof) / dof, chi_square_quantile(0.995, dof) / dof);
         std::fflush(stdout);
       }
     }
@@ -126,7 +135,9 @@ void report_centre() {
     }
     std::printf("\n");
   }
-  std::printf("\nSaturated: the brightest pixel at its brightest, times white.\n\n| bits | PSF sigma | times | seen | rms px, each axis | worst px |\n|---|---|---|---|---|---|\n");
+  std::printf(
+      "\nSaturated: the brightest pixel at its brightest, times white.\n\n| bits | PSF sigma | times | seen | rms px, "
+      "each axis | worst px |\n|---|---|---|---|---|---|\n");
   for (const int bits : {8, 16}) {
     for (const double sigma_px : {0.7, 1.0, 1.5}) {
       for (const double times : {2., 5., 10., 20.}) {
@@ -144,7 +155,8 @@ void report_range() {
   std::printf(
       "\n## Twelve bits: 3 m overhead and 25 m at 70 deg in one image\n\nThe far one is 594 times dimmer (distances "
       "squared, Lambert's cosine, the lens's cosine). Exposure: the near one's brightest pixel at its brightest, times "
-      "white. 20 images each.\n\n| exposure | far one's peak, levels | near seen | far seen | near rms px | far rms px |\n|---|---|---|---|---|---|\n");
+      "white. 20 images each.\n\n| exposure | far one's peak, levels | near seen | far seen | near rms px | far rms px "
+      "|\n|---|---|---|---|---|---|\n");
   for (const double exposure : {0.9, 2., 4., 7., 10.}) {
     int near = 0, far = 0;
     double near_square = 0, far_square = 0, peak = 0;
@@ -176,8 +188,10 @@ void report_motion() {
       "\n## Motion\n\nVGA, 8 bits, 60 frames/s, N = 30, exposure 2 ms, beacons of 100 to 1000 grey levels in all, shot "
       "noise of 20 e a level. A window: one frame and one beacon that has been in view for N + 5 frames. Linear: lens "
       "without distortion, heights within 5 %% of what the detector is told. Motion input: gyro and wheels, 1 %% scale "
-      "error. Right: the beacon's own code within 5 px. Ghost: a sighting further from any beacon. rms: each axis, at the "
-      "newest frame.\n\n| case | motion input | code | windows | right | wrong code | ghosts | rms px |\n|---|---|---|---|---|---|---|---|\n");
+      "error. Right: the beacon's own code within 5 px. Ghost: a sighting further from any beacon. rms: each axis, at "
+      "the "
+      "newest frame.\n\n| case | motion input | code | windows | right | wrong code | ghosts | rms px "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   using Path = test::MotionCase::Path;
   for (const bool square : {false, true}) {
     for (const bool input : {true, false}) {
@@ -226,7 +240,8 @@ void report_motion() {
 void report_follow() {
   std::printf(
       "\n## On, hidden, back\n\nN = 30, worst of %d runs, frames. Limits: first N + 5 = 35, ghosts 3, back N/2 + 5 = "
-      "20.\n\n| px a frame | motion input | light, levels | hidden | first seen after | last ghost | back after | gaps | wrong |\n|---|---|---|---|---|---|---|---|---|\n",
+      "20.\n\n| px a frame | motion input | light, levels | hidden | first seen after | last ghost | back after | gaps "
+      "| wrong |\n|---|---|---|---|---|---|---|---|---|\n",
       scaled(20));
   for (const double light : {100., 400.}) {
     for (const double speed : {0., 1., 2.}) {
@@ -268,7 +283,8 @@ std::string spelled(const std::map<ToneSet, long>& codes) {
 
 void report_lamps() {
   std::printf(
-      "\n## Lamps\n\nAisles without a beacon, 60 frames/s, mains of 50 and 60 Hz in turn. Each lamp in view is a chance in "
+      "\n## Lamps\n\nAisles without a beacon, 60 frames/s, mains of 50 and 60 Hz in turn. Each lamp in view is a "
+      "chance in "
       "each frame: lamp-hours. Nameable: two tones, none a multiple of the other, which a site may give a beacon.\n\n"
       "| lamps | m/s | motion input | minutes | lamp-hours | sightings | nameable | codes, Hz (times) |\n"
       "|---|---|---|---|---|---|---|---|\n");
@@ -306,11 +322,13 @@ int main(int argc, char** argv) {
       wanted.insert(argv[i]);
     }
   }
-  const std::pair<const char*, void (*)()> sections[] = {
-      {"probability", lodestar::report_probability}, {"alarms", lodestar::report_alarms},
-      {"centre", lodestar::report_centre},           {"range", lodestar::report_range},
-      {"motion", lodestar::report_motion},           {"follow", lodestar::report_follow},
-      {"lamps", lodestar::report_lamps}};
+  const std::pair<const char*, void (*)()> sections[] = {{"probability", lodestar::report_probability},
+                                                         {"alarms", lodestar::report_alarms},
+                                                         {"centre", lodestar::report_centre},
+                                                         {"range", lodestar::report_range},
+                                                         {"motion", lodestar::report_motion},
+                                                         {"follow", lodestar::report_follow},
+                                                         {"lamps", lodestar::report_lamps}};
   std::printf("# Detection: its limits\n\n`report_detector --scale %g`\n", lodestar::scale);
   for (const auto& [name, report] : sections) {
     if (wanted.empty() || wanted.count(name)) report();

@@ -125,8 +125,7 @@ class BlobScene {
   void expose(const Light& light, double time_s) {
     constexpr double kStep_px = 0.25;
     if (exposure_s == 0) return add(light, time_s, 1.0);
-    const double travel_px =
-        (light.pixel(time_s + 0.5 * exposure_s) - light.pixel(time_s - 0.5 * exposure_s)).norm();
+    const double travel_px = (light.pixel(time_s + 0.5 * exposure_s) - light.pixel(time_s - 0.5 * exposure_s)).norm();
     if (!(travel_px < 1e3)) return;  // it leaves the lens
     const int steps = std::clamp(static_cast<int>(std::ceil(travel_px / kStep_px)), 4, 32);
     for (int i = 0; i < steps; ++i) add(light, time_s + ((i + 0.5) / steps - 0.5) * exposure_s, 1.0 / steps);
@@ -151,8 +150,12 @@ class BlobScene {
       return;
     }
     const auto u0 = static_cast<int>(std::lround(centre.x())), v0 = static_cast<int>(std::lround(centre.y()));
-    const Pane patch{std::max(0, u0 - reach), std::max(0, v0 - reach), std::min(width_px, u0 + reach + 1),
-                     std::min(height_px, v0 + reach + 1), 0, 0};
+    const Pane patch{std::max(0, u0 - reach),
+                     std::max(0, v0 - reach),
+                     std::min(width_px, u0 + reach + 1),
+                     std::min(height_px, v0 + reach + 1),
+                     0,
+                     0};
     column_shares_.clear();
     for (int u = patch.u0; u < patch.u1; ++u) column_shares_.push_back(share(centre.x(), sigma_px, u));
     for (int v = patch.v0; v < patch.v1; ++v) {

@@ -17,9 +17,9 @@ struct CentreTrials {
 
   // Measured, both axes together.
   int trials = 0, seen = 0;
-  double square_px2 = 0, nees = 0;                      ///< sums over those seen
-  Eigen::Vector2d error_px = Eigen::Vector2d::Zero();   ///< sum
-  double bound_px2 = 0, bound_known_background_px2 = 0; ///< sums over those seen, of both axes
+  double square_px2 = 0, nees = 0;                       ///< sums over those seen
+  Eigen::Vector2d error_px = Eigen::Vector2d::Zero();    ///< sum
+  double bound_px2 = 0, bound_known_background_px2 = 0;  ///< sums over those seen, of both axes
 
   double rms_px() const { return std::sqrt(square_px2 / (2 * seen)); }
   double crb_px() const { return std::sqrt(bound_px2 / (2 * seen)); }

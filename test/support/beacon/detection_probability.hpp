@@ -16,9 +16,7 @@ struct DetectionTrials {
   std::vector<double> tones_hz = {5, 10};  ///< the paper's
 
   /// On power over s2: one false alarm an hour over all pixels and tones of a VGA image.
-  double threshold() const {
-    return 2 * std::log(3600 * kRate_hz * 640 * 480 * static_cast<double>(tones_hz.size()));
-  }
+  double threshold() const { return 2 * std::log(3600 * kRate_hz * 640 * 480 * static_cast<double>(tones_hz.size())); }
 
   /// Noncentral chi-square with two degrees of freedom: P(power / s2 > threshold).
   double theory(double snr_db) const {
@@ -50,8 +48,8 @@ struct DetectionTrials {
         places[i] += Eigen::Vector2d(scene.random().uniform(-0.5, 0.5), scene.random().uniform(-0.5, 0.5));
         const double light = amplitude / BlobScene::share(places[i], scene.psf_sigma_px, static_cast<int>(pixel.x()),
                                                           static_cast<int>(pixel.y()));
-        scene.lights.push_back({at(places[i].x(), places[i].y()),
-                                beacon(scene.random(), light, {tones_hz[i % tones_hz.size()]}, false)});
+        scene.lights.push_back(
+            {at(places[i].x(), places[i].y()), beacon(scene.random(), light, {tones_hz[i % tones_hz.size()]}, false)});
       }
       const auto seen = stare(scene, params, window_frames + 5, kRate_hz);
       for (std::size_t i = 0; i < places.size(); ++i, ++count) {

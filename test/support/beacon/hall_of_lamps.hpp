@@ -14,9 +14,12 @@ enum class Lamps {
   kReflections,    ///< of lamps in ribbed cladding: they twinkle as the truck passes the ribs
   kSun,            ///< the same of the sun, which goes along with the truck
 };
-inline const std::map<Lamps, const char*> kAllLamps = {
-    {Lamps::kSteady, "steady"},   {Lamps::kFlickering, "flickering"}, {Lamps::kTubes, "tubes"},
-    {Lamps::kWarningLights, "warning lights"}, {Lamps::kReflections, "reflections of lamps"}, {Lamps::kSun, "sun"}};
+inline const std::map<Lamps, const char*> kAllLamps = {{Lamps::kSteady, "steady"},
+                                                       {Lamps::kFlickering, "flickering"},
+                                                       {Lamps::kTubes, "tubes"},
+                                                       {Lamps::kWarningLights, "warning lights"},
+                                                       {Lamps::kReflections, "reflections of lamps"},
+                                                       {Lamps::kSun, "sun"}};
 
 /// Drives under lamps of one kind without a single beacon: what is sighted is a mistake. A straight aisle, the ceiling
 /// 6 m above the camera.
@@ -145,8 +148,8 @@ struct HallOfLamps {
     }
   }
 
-  /// A lamp or the sun mirrored in a ribbed wall to one side: an image behind the wall that each rib shows for a moment,
-  /// no two ribs equally bright.
+  /// A lamp or the sun mirrored in a ribbed wall to one side: an image behind the wall that each rib shows for a
+  /// moment, no two ribs equally bright.
   void shine_in_cladding(double x, const SeenFrom& seen_from, BlobScene& scene) const {
     Noise& random = scene.random();
     const double side = random.uniform(0, 1) < 0.5 ? -1 : 1;
@@ -161,10 +164,9 @@ struct HallOfLamps {
       return light * of_rib * std::pow(0.5 - 0.5 * std::cos(2 * kPi * ribs), sharpness);
     };
     const bool sun = lamps == Lamps::kSun;
-    scene.lights.push_back({[=](double t) {
-                              return seen_from(t, sun ? mirrored + Eigen::Vector3d(speed * t, 0, 0) : mirrored);
-                            },
-                            brightness});
+    scene.lights.push_back(
+        {[=](double t) { return seen_from(t, sun ? mirrored + Eigen::Vector3d(speed * t, 0, 0) : mirrored); },
+         brightness});
   }
 };
 

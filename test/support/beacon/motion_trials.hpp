@@ -14,13 +14,13 @@ struct MotionCase {
     kHandHeld  ///< swaying about all axes, a fisheye
   };
   Path path = Path::kLinear;
-  double speed = 0;          ///< px a frame (hand-held: at its fastest); kYaw: rad/s
-  bool motion_input = true;  ///< gyro and odometry at 100 Hz, with noise and 1 % scale error; else a camera alone
-  bool square = false;       ///< on-off beacons of one tone; else two never-dark tones
-  double jitter = 0;         ///< of the frame's instant, a share of the period; the stamp is right
-  double loss = 0;           ///< share of frames lost at random
-  int lost_in_a_row = 0;     ///< frames lost together, once in 40
-  double stamp_offset_s = 0; ///< of all frames' stamps
+  double speed = 0;           ///< px a frame (hand-held: at its fastest); kYaw: rad/s
+  bool motion_input = true;   ///< gyro and odometry at 100 Hz, with noise and 1 % scale error; else a camera alone
+  bool square = false;        ///< on-off beacons of one tone; else two never-dark tones
+  double jitter = 0;          ///< of the frame's instant, a share of the period; the stamp is right
+  double loss = 0;            ///< share of frames lost at random
+  int lost_in_a_row = 0;      ///< frames lost together, once in 40
+  double stamp_offset_s = 0;  ///< of all frames' stamps
   double dimmest = 100, brightest = 1000;  ///< grey levels in all, 8 bits
 };
 
@@ -89,7 +89,8 @@ class MotionRun {
       Eigen::Vector3d turn;
       for (int axis = 0; axis < 3; ++axis) {
         const double omega = 2 * kPi * (0.6 + 0.25 * axis);
-        turn[axis] = 0.6 * case_.speed / kFisheye_px * kPlanRate_hz / omega * std::sin(omega * t + sway_phase_rad_[axis]);
+        turn[axis] =
+            0.6 * case_.speed / kFisheye_px * kPlanRate_hz / omega * std::sin(omega * t + sway_phase_rad_[axis]);
       }
       T.linear() = so3_exp(turn);
     }
@@ -130,8 +131,7 @@ class MotionRun {
   void hang_beacons_around() {
     for (int i = 0; i < 8; ++i) {
       const double azimuth_rad = 2 * kPi * (i + random_.uniform(-0.2, 0.2)) / 8;
-      const double off_axis_rad =
-          case_.path == MotionCase::Path::kYaw ? radians(70) : radians(random_.uniform(15, 50));
+      const double off_axis_rad = case_.path == MotionCase::Path::kYaw ? radians(70) : radians(random_.uniform(15, 50));
       hang(kHeight_m * Eigen::Vector3d(std::tan(off_axis_rad) * std::cos(azimuth_rad),
                                        std::tan(off_axis_rad) * std::sin(azimuth_rad), 1));
     }
@@ -224,8 +224,7 @@ struct DarkAndHidden {
       const double t = i / kPlanRate_hz;
       const Image image = scene.render(t);
       if (motion_input) {
-        motion.add_odometry(
-            {image.stamp, {speed_px_s * kHeight_m / kFocal_px, 0}, 0, Eigen::Vector3d::Zero(), 0});
+        motion.add_odometry({image.stamp, {speed_px_s * kHeight_m / kFocal_px, 0}, 0, Eigen::Vector3d::Zero(), 0});
       }
       const auto sightings = detect(detector, image, motion);
       const bool seen = nearest(sightings, place(t), 4);

@@ -13,7 +13,8 @@ void expect_within_limits(const MotionCase& motion, const std::string& what) {
   EXPECT_GE(tally.identified(), 0.99) << what;
   EXPECT_EQ(tally.wrong, 0) << what;
   EXPECT_EQ(tally.ghosts, 0) << what;
-  if (motion.stamp_offset_s == 0) EXPECT_LE(tally.rms_px(), 0.15) << what;
+  if (motion.stamp_offset_s != 0) return;  // where the beacon is at a wrong instant is no error of the centre
+  EXPECT_LE(tally.rms_px(), 0.15) << what;
 }
 
 /// With and without odometry and gyro, two tones and on-off.
