@@ -126,18 +126,22 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
     }
     const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, noise);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
-    bool found = track != nullptr;
-    for (int slot = 0; found && slot < window_.capacity(); ++slot)
-      found = track->look_back(window_, slot, flash->pixel, noise);
-    found = found && reader_.varies(*track, noise.dark_variance);
-    if (found) {
-      track->set_frames(window_.capacity());
-    } else if (track) {
-      tracker_.drop_last();
-    }
+    const bool found = track && read_new(*track, noise);
+    if (track && !found) tracker_.drop_last();
     scan_.settle(change.pixel, found);
     misses += found ? 0 : 1;
   }
+}
+
+bool BeaconDetector::read_new(BlobTrack& track, const PixelNoise& noise) {
+  // Width, clipping and noise decide how the light is read, and the light decides on them: some rounds.
+  constexpr int kRounds = 5;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!track.read_window(window_, noise)) return false;
+    reader_.learn(track, bank_, noise.dark_variance);
+    if (!track.reshape(noise.dark_variance)) break;
+  }
+  return reader_.varies(track, noise.dark_variance);
 }
 
 Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const CameraMotion& camera_motion,

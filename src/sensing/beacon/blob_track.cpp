@@ -12,6 +12,7 @@ constexpr float kSureSigmas = 8.0f;    ///< ... and that may pull it farther tha
 constexpr double kPullPx = 0.3;
 constexpr double kUncertainPx2 = 0.1;  ///< a prediction worse than this is helped by the spot's centroid
 constexpr double kMinGatePx = 1.0, kMaxGatePx = 3.5;
+constexpr float kWidthStep = 0.01f;  ///< of the spot's width; less is not worth a new filter
 constexpr float kMinSigmaPx = 0.4f, kMaxSigmaPx = 2.5f;
 
 Eigen::Vector2i nearest(const Eigen::Vector2d& place) { return place.array().round().matrix().cast<int>(); }
@@ -23,6 +24,7 @@ BlobTrack::BlobTrack(const PathFilter& path, int slots)
       flux_(Series::Zero(slots)),
       shift_u_(flux_),
       shift_v_(flux_),
+      widening_(flux_),
       clipped_radius_(flux_),
       places_(static_cast<std::size_t>(slots), path.pixel()) {}
 
@@ -35,9 +37,10 @@ void BlobTrack::restart(const PathFilter& path) {
   flux_.setZero();
   shift_u_.setZero();
   shift_v_.setZero();
+  widening_.setZero();
   clipped_radius_.setZero();
   pixel_variance_ = 0;
-  widening_ = widening_weight_ = newest_flux_ = 0;
+  newest_flux_ = 0;
   frames_ = age_ = hits_ = unseen_ = 0;
 }
 
@@ -49,18 +52,6 @@ void BlobTrack::hide() {
   hidden = true;
   unseen_ = static_cast<int>(flux_.size());
   frames_ = 0;
-}
-
-void BlobTrack::learn_noise(double pixel_variance, double dark_variance) {
-  pixel_variance_ = pixel_variance;
-  if (!path_.still() || saturated()) return;
-  // Shot noise: weights that are right leave a residual of the dark pixels' size.
-  constexpr float kLevel = 4;
-  const double excess = pixel_variance / dark_variance;
-  const float before = shape_.shot;
-  if (excess > 1.6 && shape_.shot < 60) shape_.shot = std::max(1.0f, kLevel * shape_.shot);
-  if (excess < 0.7 && shape_.shot > 0) shape_.shot = shape_.shot > 1 ? shape_.shot / kLevel : 0;
-  if (shape_.shot != before) designed_ = false;
 }
 
 void BlobTrack::aim(const Eigen::Vector2d& place) {
@@ -79,6 +70,7 @@ void BlobTrack::record(int slot, const SpotLight& light, float clipped_radius) {
   flux_[slot] = light.flux;
   shift_u_[slot] = light.shift.x();
   shift_v_[slot] = light.shift.y();
+  widening_[slot] = light.widening;
   clipped_radius_[slot] = clipped_radius;
   places_[static_cast<std::size_t>(slot)] = anchor_;
 }
@@ -127,38 +119,80 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   }
   unseen_ = 0;
   ++hits_;
+  const float before = shape_.clipped_radius_px;
   path_.update(pixel, variance * filter_.shift_variance() / (static_cast<double>(light.flux) * light.flux));
-  follow_shape(window, light, noise);
+  if (reshape(noise.dark_variance)) {
+    if (path_.still()) {
+      read_window(window, noise);
+    } else if (shape_.clipped_radius_px != before) {
+      for (int older = frames_ - 1; older >= 0; --older) {
+        const int at = window.slot(older);
+        look_back(window, older, places_[static_cast<std::size_t>(at)], noise);
+      }
+    }
+  }
   return Look::kSeen;
 }
 
-void BlobTrack::follow_shape(const FrameWindow& window, const SpotLight& light, const PixelNoise& noise) {
-  const float clipped = clipped_radius_.maxCoeff();
-  if (clipped > shape_.clipped_radius_px || clipped < shape_.clipped_radius_px - 0.5f) {
-    shape_.clipped_radius_px = clipped > 0 ? clipped + 0.2f : 0;
-    designed_ = false;
-    for (int age = frames_ - 1; age >= 0; --age) {
-      const int slot = window.slot(age);
-      look_back(window, slot, places_[static_cast<std::size_t>(slot)], noise);
-    }
-  }
-  // The width follows over some windows; steps below 3 % are not worth a new filter.
-  const float keep = 1.0f - 1.0f / static_cast<float>(flux_.size());
-  widening_ = keep * widening_ + light.flux * light.widening;
-  widening_weight_ = keep * widening_weight_ + light.flux * light.flux;
-  const float wider = widening_ / widening_weight_;
-  const double sigma = std::sqrt(std::max(noise.dark_variance, pixel_variance_) * filter_.widening_variance() / widening_weight_);
-  if (std::abs(wider) < 0.03f * shape_.sigma_px || std::abs(wider) < 3 * sigma) return;
-  const float reach = 0.2f * shape_.sigma_px;
-  shape_.sigma_px = std::clamp(shape_.sigma_px + std::clamp(wider, -reach, reach), kMinSigmaPx, kMaxSigmaPx);
-  widening_ = widening_weight_ = 0;
-  designed_ = false;
+bool BlobTrack::reshape(double dark_variance) {
+  const bool clipping = follow_clipping();
+  const bool width = follow_width(dark_variance);
+  const bool shot_noise = follow_shot_noise(dark_variance);
+  if (clipping || width || shot_noise) designed_ = false;
+  return !designed_;
 }
 
-bool BlobTrack::look_back(const FrameWindow& window, int slot, const Eigen::Vector2d& place, const PixelNoise& noise) {
+bool BlobTrack::follow_clipping() {
+  constexpr float kMarginPx = 0.1f;  // the next frame may clip a little more
+  const float clipped = clipped_radius_.maxCoeff();
+  const float before = shape_.clipped_radius_px;
+  if (clipped <= before && clipped > before - 0.5f) return false;
+  shape_.clipped_radius_px = clipped > 0 ? clipped + kMarginPx : 0;
+  return shape_.clipped_radius_px != before;
+}
+
+bool BlobTrack::follow_width(double dark_variance) {
+  if (2 * frames_ < static_cast<int>(flux_.size())) return false;
+  const float square = flux_.square().sum();
+  const float wider = (flux_ * widening_).sum() / square;
+  const double variance = std::max(dark_variance, pixel_variance_) * filter_.widening_variance();
+  if (square < 100 * variance || wider * wider * square < 9 * variance) return false;
+  if (std::abs(wider) < kWidthStep * shape_.sigma_px) return false;
+  const float reach = 0.3f * shape_.sigma_px, before = shape_.sigma_px;
+  shape_.sigma_px = std::clamp(before + std::clamp(wider, -reach, reach), kMinSigmaPx, kMaxSigmaPx);
+  return shape_.sigma_px != before;
+}
+
+bool BlobTrack::follow_shot_noise(double dark_variance) {
+  if (!path_.still() || saturated() || pixel_variance_ == 0) return false;
+  // With weights that are right the residual is that of dark pixels; half of the light weighs like the peak.
+  const double excess = pixel_variance_ / dark_variance;
+  const double shot = 2 * (excess * (1 + 0.5 * shape_.shot) - 1);
+  float level = 0;
+  for (const float next : {1.0f, 4.0f, 16.0f, 64.0f})
+    if (shot > 0.5 * next) level = next;
+  // From one level to the next there is a factor of four: noise of the estimate does not move it to and fro.
+  const bool near = shape_.shot > 0 ? shot > 0.25 * shape_.shot && shot < 3 * shape_.shot : level <= 0;
+  if (near || level == shape_.shot) return false;
+  shape_.shot = level;
+  pixel_variance_ = 0;
+  return true;
+}
+
+bool BlobTrack::read_window(const FrameWindow& window, const PixelNoise& noise) {
+  const Eigen::Vector2d place = path_.pixel();
+  frames_ = 0;
+  for (int age = 0; age < window.size(); ++age)
+    if (!look_back(window, age, place, noise)) return false;
+  return true;
+}
+
+bool BlobTrack::look_back(const FrameWindow& window, int age, const Eigen::Vector2d& place, const PixelNoise& noise) {
+  const int slot = window.slot(age);
   aim(place);
   if (!patch_.read(window.at(slot), nearest(anchor_))) return false;
   record(slot, filter_.read(patch_), patch_.clipped_radius(anchor_, noise.white_level));
+  frames_ = std::max(frames_, age + 1);
   return true;
 }
 

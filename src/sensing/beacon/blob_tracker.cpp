@@ -83,21 +83,20 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
 
 void BlobTracker::look_back(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion,
                             const PixelNoise& noise) const {
+  if (track.path().still()) {
+    track.read_window(window, noise);
+    return;
+  }
   Eigen::Vector2d place = track.path().pixel();
-  Eigen::Vector2d velocity = track.path().velocity_px_s();
-  const bool still = track.path().still();
-  const int reach = still ? window.size() : std::min(window.size(), track.frames() + kLookBackFrames);
+  const Eigen::Vector2d velocity = track.path().velocity_px_s();
+  const int known = track.frames(), reach = std::min(window.size(), known + kLookBackFrames);
   for (int age = 1; age < reach; ++age) {
     const int slot = window.slot(age), after = window.slot(age - 1);
-    if (!still) {
-      place -= velocity * seconds(window.at(after).stamp - window.at(slot).stamp);
-      const auto moved = motion.pixel_from(place, window.T_before_now(after));
-      if (!moved) return;
-      place = *moved;
-    }
-    if (age < track.frames() && !still) continue;
-    if (!track.look_back(window, slot, place, noise)) return;
-    track.set_frames(std::max(track.frames(), age + 1));
+    place -= velocity * seconds(window.at(after).stamp - window.at(slot).stamp);
+    const auto before = motion.pixel_from(place, window.T_before_now(after));
+    if (!before) return;
+    place = *before;
+    if (age >= known && !track.look_back(window, age, place, noise)) return;
   }
 }
 

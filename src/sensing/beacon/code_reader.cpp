@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelSigmaPx = 0.005;  ///< what the spot's shape leaves open of its centre
+constexpr double kModelSigmaPx = 0.0005;  ///< what the spot's shape leaves open of its centre
 constexpr int kMaxColumns = 7;           ///< a constant and three tones
 
 /// Residual of flux * offset = shift with the best offset.
@@ -19,7 +19,7 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 
 }  // namespace
 
-CodeReader::CodeReader(const CodeReaderParams& params, int slots) : params_(params), wave_(slots) {}
+CodeReader::CodeReader(const CodeReaderParams& params, int slots) : params_(params), wave_(slots), weights_(slots) {}
 
 bool CodeReader::varies(const BlobTrack& track, double dark_variance) const {
   const auto frames = static_cast<float>(track.flux().size());
@@ -27,34 +27,37 @@ bool CodeReader::varies(const BlobTrack& track, double dark_variance) const {
   return energy > dark_variance * track.filter().flux_variance() * (frames + 8 * std::sqrt(2 * frames));
 }
 
-std::optional<CodeReader::Reading> CodeReader::read_window(const BlobTrack& track, const ToneBank& bank,
-                                                           double dark_variance) {
+CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<int>(flux.size());
+  const float flux_variance = track.filter().flux_variance();
   projections_.noalias() = bank.basis() * flux.matrix();
   const auto power = [&](int tone) { return projections_.segment<2>(2 * tone).squaredNorm(); };
-  const float flux_variance = track.filter().flux_variance();
   TonePowers powers(bank.tones());
   for (int k = 0; k < bank.tones(); ++k) powers[k] = power(k) - 2 * static_cast<float>(dark_variance) * flux_variance;
 
   Reading reading;
   reading.code = decide_code(powers, params_.code);
-  if (reading.code.empty()) return std::nullopt;
   wave_.setZero();
-  float sent = 0, weakest = std::numeric_limits<float>::max();
-  int tones = 0;
+  float weakest = std::numeric_limits<float>::max();
   for (int k = 0; k < bank.tones(); ++k) {
     if (!reading.code.contains(k)) continue;
-    wave_ += (bank.basis().middleRows(2 * k, 2).transpose() * projections_.segment<2>(2 * k)).array();
-    sent += power(k);
+    wave_ += projections_[2 * k] * bank.basis().row(2 * k).transpose().array() +
+             projections_[2 * k + 1] * bank.basis().row(2 * k + 1).transpose().array();
+    reading.sent += power(k);
     weakest = std::min(weakest, power(k));
-    ++tones;
+    ++reading.tones;
   }
-
   reading.mean = flux.mean();
-  const float energy = (flux - reading.mean).square().sum();
-  double residual = std::max(0.0f, energy - sent) / flux_variance;
-  int freedom = std::max(0, frames - 1 - 2 * tones);
+  reading.energy = (flux - reading.mean).square().sum();
+
+  // What neither code nor place explains is noise; a blob without a code has only its place to go by.
+  double residual = 0;
+  int freedom = 0;
+  if (!reading.code.empty()) {
+    residual += std::max(0.0f, reading.energy - reading.sent) / flux_variance;
+    freedom += std::max(0, frames - 1 - 2 * reading.tones);
+  }
   if (track.path().still()) {
     const float square = flux.square().sum();
     residual += (offset_residual(flux, track.shift_u(), square) + offset_residual(flux, track.shift_v(), square)) /
@@ -64,12 +67,18 @@ std::optional<CodeReader::Reading> CodeReader::read_window(const BlobTrack& trac
   reading.pixel_variance = freedom > 0 ? residual / freedom : dark_variance;
   const float noise = static_cast<float>(std::max(dark_variance, reading.pixel_variance)) * flux_variance;
   reading.weakest_over_noise = weakest / noise;
-  if (sent < params_.min_explained * (energy - static_cast<float>(frames - 1) * noise)) return std::nullopt;
+  reading.explained = reading.sent >= params_.min_explained * (reading.energy - static_cast<float>(frames - 1) * noise);
   return reading;
 }
 
-std::optional<CodeReader::Reading> CodeReader::read_rest(const BlobTrack& track, const FrameWindow& window,
-                                                         const ToneBank& bank, double dark_variance) {
+void CodeReader::learn(BlobTrack& track, const ToneBank& bank, double dark_variance) {
+  const Reading reading = read_window(track, bank, dark_variance);
+  track.learn_noise(reading.pixel_variance);
+  if (!reading.code.empty()) refine_centre(track, reading);
+}
+
+CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                          double dark_variance) {
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
   const int columns = 1 + 2 * track.code.size();
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns> normal(columns, columns);
@@ -114,7 +123,7 @@ std::optional<CodeReader::Reading> CodeReader::read_rest(const BlobTrack& track,
   for (int c = 1; c < columns; c += 2)
     weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
   reading.weakest_over_noise = weakest / noise;
-  if (left > (1 - params_.min_explained) * energy + static_cast<float>(track.frames()) * noise) return std::nullopt;
+  reading.explained = left <= (1 - params_.min_explained) * energy + static_cast<float>(track.frames()) * noise;
   return reading;
 }
 
@@ -136,46 +145,54 @@ bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, con
   return false;
 }
 
-void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) const {
-  // What else shines beside the blob, steadily, pulls the mean of all its light; the code's part alone is not pulled.
-  const float square = wave_.square().sum();
-  const double variance =
-      std::max(reading.pixel_variance, 1e-6) * track.filter().shift_variance() / static_cast<double>(square);
-  const Eigen::Vector2d offset(static_cast<double>((wave_ * track.shift_u()).sum() / square),
-                               static_cast<double>((wave_ * track.shift_v()).sum() / square));
-  const Eigen::Vector2d pixel = track.anchor() + offset;
-  const bool faint = track.hits() < track.frames() / 4;
-  constexpr double kPulledPx = 0.02, kPulledSigmas2 = 12;
-  if (faint || (pixel - track.path().pixel()).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * variance)
-    track.path().correct(pixel, variance);
+void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
+  struct Estimate {
+    Eigen::Vector2d offset;
+    double variance;
+  };
+  const double shift_variance = std::max(reading.pixel_variance, 1e-9) * track.filter().shift_variance();
+  // Shot noise makes bright frames noisier: half of the light counts like the peak.
+  const float shot = 0.5f * track.shape().shot;
+  const auto estimate = [&](const auto& light) {
+    weights_ = light * (1 + shot) / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
+    const double information = (weights_ * light).sum();
+    return Estimate{Eigen::Vector2d((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information,
+                    shift_variance / information};
+  };
+  // All light says most. What else shines beside the blob, steadily, pulls it; the code's part alone is not pulled.
+  const bool bright = reading.mean * reading.mean > 36 * shift_variance;
+  Estimate best = bright ? estimate(track.flux()) : estimate((reading.mean + wave_).max(0.0f));
+  const Estimate coded = estimate(wave_);
+  constexpr double kPulledPx = 0.005, kPulledSigmas2 = 14;
+  if ((coded.offset - best.offset).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * coded.variance) best = coded;
+  track.path().correct(track.anchor() + best.offset, best.variance);
 }
 
 std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                          double power_threshold, double dark_variance) {
   const bool whole = track.frames() == window.capacity();
   if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity())) return std::nullopt;
-  const auto reading =
+  const Reading reading =
       whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
-  if (!reading) return std::nullopt;
-  if (whole) track.learn_noise(reading->pixel_variance, dark_variance);
-  if (reading->weakest_over_noise < power_threshold) return std::nullopt;
-  if (has_gone(track, window, *reading)) {
-    track.code = reading->code;
+  if (whole) track.learn_noise(reading.pixel_variance);
+  if (reading.code.empty() || !reading.explained || reading.weakest_over_noise < power_threshold) return std::nullopt;
+  if (has_gone(track, window, reading)) {
+    track.code = reading.code;
     track.hide();
     return std::nullopt;
   }
   if (whole) {
-    track.code = reading->code;
+    track.code = reading.code;
     track.hidden = false;
-    if (track.path().still()) refine_centre(track, *reading);
+    if (track.path().still()) refine_centre(track, reading);
   }
   track.confirm();
 
   Sighting sighting;
   sighting.pixel = track.path().pixel();
   sighting.covariance = Eigen::Matrix2d::Identity() * (track.path().variance() + kModelSigmaPx * kModelSigmaPx);
-  sighting.tones = reading->code;
-  sighting.snr_db = 10.0 * std::log10(reading->weakest_over_noise / 2.0);
+  sighting.tones = reading.code;
+  sighting.snr_db = 10.0 * std::log10(reading.weakest_over_noise / 2.0);
   sighting.saturated = track.saturated();
   return sighting;
 }

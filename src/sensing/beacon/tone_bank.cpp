@@ -11,6 +11,12 @@ ToneBank::ToneBank(int slots, const std::vector<double>& tones_hz)
       waves_(Basis::Zero(2 * static_cast<Eigen::Index>(tones_hz.size()), slots)),
       basis_(waves_) {}
 
+ToneBank::ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz)
+    : ToneBank(static_cast<int>(stamps.size()), tones_hz) {
+  for (std::size_t i = 0; i < stamps.size(); ++i) set(static_cast<int>(i), stamps[i]);
+  update();
+}
+
 void ToneBank::set(int slot, Stamp stamp) {
   if (!started_) epoch_ = stamp;
   started_ = true;

@@ -76,6 +76,7 @@ class BeaconDetector {
   bool image_moves() const;
   void choose_lags();
   void discover(double power_threshold, const PixelNoise& noise);
+  bool read_new(BlobTrack& track, const PixelNoise& noise);
 
   BeaconDetectorParams params_;
   FrameWindow window_;

@@ -35,10 +35,16 @@ class BlobTrack {
   /// Finds the blob in the newest frame near `place` and reads its light; what is not within the gate is not it.
   Look look(const FrameWindow& window, const Eigen::Vector2d& place, const PixelNoise& noise);
 
-  /// Reads the light of an older frame, at `place`. False: outside the image.
-  bool look_back(const FrameWindow& window, int slot, const Eigen::Vector2d& place, const PixelNoise& noise);
-  /// Counts `frames` of the newest as read.
-  void set_frames(int frames) { frames_ = frames; }
+  /// Reads the light of the frame `age` before the newest, at `place`. Call with ascending ages, from where frames()
+  /// ends. False: outside the image.
+  bool look_back(const FrameWindow& window, int age, const Eigen::Vector2d& place, const PixelNoise& noise);
+
+  /// Reads all frames of the window anew, as a standing blob. False: outside the image.
+  bool read_window(const FrameWindow& window, const PixelNoise& noise);
+
+  /// What the light of the window says of the spot's width, clipped core and shot noise. True when that is news: the
+  /// window should be read anew.
+  bool reshape(double dark_variance);
 
   /// How far from the prediction the blob may turn up, px.
   double gate_px() const;
@@ -57,11 +63,11 @@ class BlobTrack {
   const Series& shift_v() const { return shift_v_; }
   const Eigen::Vector2d& anchor() const { return anchor_; }
   const SpotFilter& filter() const { return filter_; }
+  const SpotShape& shape() const { return shape_; }
   bool saturated() const { return shape_.clipped_radius_px > 0; }
 
   /// Variance of a pixel beside the spot, as the code's residual has it; learnt by who reads the code.
-  void learn_noise(double pixel_variance, double dark_variance);
-  double pixel_variance() const { return pixel_variance_; }
+  void learn_noise(double pixel_variance) { pixel_variance_ = pixel_variance; }
 
   /// The code it was last sighted with, and whether its light has gone since (hidden by a mast, a rack).
   ToneSet code;
@@ -73,7 +79,9 @@ class BlobTrack {
  private:
   void aim(const Eigen::Vector2d& place);
   void record(int slot, const SpotLight& light, float clipped_radius);
-  void follow_shape(const FrameWindow& window, const SpotLight& light, const PixelNoise& noise);
+  bool follow_width(double dark_variance);
+  bool follow_shot_noise(double dark_variance);
+  bool follow_clipping();
 
   PathFilter path_;
   SpotShape shape_;
@@ -82,10 +90,9 @@ class BlobTrack {
   Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();  ///< place that the filter is made for
   Patch patch_;
 
-  Series flux_, shift_u_, shift_v_, clipped_radius_;
+  Series flux_, shift_u_, shift_v_, widening_, clipped_radius_;
   std::vector<Eigen::Vector2d> places_;
   double pixel_variance_ = 0;
-  float widening_ = 0, widening_weight_ = 0;
   float newest_flux_ = 0;
   int frames_ = 0, age_ = 0, hits_ = 0, unseen_ = 0;
 };

@@ -27,25 +27,32 @@ class CodeReader {
   std::optional<Sighting> read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                double power_threshold, double dark_variance);
 
+  /// Learns the noise of a new blob's pixels and its centre from a full window.
+  void learn(BlobTrack& track, const ToneBank& bank, double dark_variance);
+
   /// Whether the light of a full window varies more than noise does.
   bool varies(const BlobTrack& track, double dark_variance) const;
 
  private:
   struct Reading {
-    ToneSet code;
+    ToneSet code;  ///< empty: none that keeps the margins
+    int tones = 0;
+    float sent = 0, energy = 0;    ///< power of the code's tones, and of all that varies
     float mean = 0;                ///< light, grey levels
     float weakest_over_noise = 0;  ///< power of the code's weakest tone
     double pixel_variance = 0;     ///< as the residual has it
+    bool explained = false;        ///< the code accounts for enough of the varying light
   };
-  std::optional<Reading> read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
-  std::optional<Reading> read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+  Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
+  Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                    double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading) const;
-  void refine_centre(BlobTrack& track, const Reading& reading) const;
+  void refine_centre(BlobTrack& track, const Reading& reading);
 
   CodeReaderParams params_;
   Eigen::VectorXf projections_;
-  Eigen::ArrayXf wave_;  ///< the code's part of the light, in each slot
+  Eigen::ArrayXf wave_;     ///< the code's part of the light, in each slot
+  Eigen::ArrayXf weights_;  ///< light times the inverse of its noise, in each slot
 };
 
 }  // namespace lodestar

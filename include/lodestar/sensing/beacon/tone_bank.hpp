@@ -23,6 +23,9 @@ class ToneBank {
   /// @param tones_hz the site's tone table
   ToneBank(int slots, const std::vector<double>& tones_hz);
 
+  /// The bank of frames with these stamps, one a slot.
+  ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz);
+
   /// A frame takes a slot. Cheap: two angle functions a tone.
   void set(int slot, Stamp stamp);
 

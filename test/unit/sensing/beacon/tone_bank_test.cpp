@@ -15,13 +15,6 @@ std::vector<Stamp> even_stamps(int frames, double rate_hz) {
   return stamps;
 }
 
-ToneBank bank_of(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz) {
-  ToneBank bank(static_cast<int>(stamps.size()), tones_hz);
-  for (std::size_t i = 0; i < stamps.size(); ++i) bank.set(static_cast<int>(i), stamps[i]);
-  bank.update();
-  return bank;
-}
-
 Eigen::VectorXf signal(const std::vector<Stamp>& stamps, double tone_hz, double amplitude, double phase_rad) {
   Eigen::VectorXf x(static_cast<Eigen::Index>(stamps.size()));
   for (std::size_t i = 0; i < stamps.size(); ++i) {
@@ -50,7 +43,7 @@ double goertzel(const Eigen::VectorXf& x, double tone_hz, double rate_hz) {
 TEST(ToneBank, EqualsTheTextbookRecursionOnEvenStamps) {
   const std::vector<double> tones = {6, 8, 10, 12, 14, 16, 24, 26};
   const auto stamps = even_stamps(30, 60);
-  const ToneBank bank = bank_of(stamps, tones);
+  const ToneBank bank(stamps, tones);
   std::mt19937 random(3);
   std::normal_distribution<float> normal;
   Eigen::VectorXf x(30);
@@ -63,7 +56,7 @@ TEST(ToneBank, EqualsTheTextbookRecursionOnEvenStamps) {
 
 TEST(ToneBank, AToneHasItsPowerAndItsNeighboursNone) {
   const auto stamps = even_stamps(30, 60);
-  const ToneBank bank = bank_of(stamps, {6, 8, 10});
+  const ToneBank bank(stamps, {6, 8, 10});
   const auto x = signal(stamps, 8, 5, 1.1);
   EXPECT_NEAR(power(bank, x, 1), 5 * 5 * 30 / 2.0, 0.05);
   EXPECT_NEAR(power(bank, x, 0), 0, 1e-3);
@@ -77,19 +70,19 @@ TEST(ToneBank, LostAndLateFramesDoNotBendTheFrequency) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> jitter(-0.2 / 60, 0.2 / 60);
   for (auto& stamp : stamps) stamp += from_seconds(jitter(random));
-  const ToneBank bank = bank_of(stamps, {6, 8, 10});
+  const ToneBank bank(stamps, {6, 8, 10});
   const auto x = signal(stamps, 8, 5, -0.4);
   EXPECT_NEAR(power(bank, x, 1), 5 * 5 * 30 / 2.0, 20);
   EXPECT_LT(power(bank, x, 0), 40);
   EXPECT_LT(power(bank, x, 2), 40);
   // Counted in frames, as if the stamps were even, the same signal falls apart.
-  const ToneBank blind = bank_of(even_stamps(30, 60), {6, 8, 10});
+  const ToneBank blind(even_stamps(30, 60), {6, 8, 10});
   EXPECT_LT(power(blind, x, 1), 300);
 }
 
 TEST(ToneBank, NoiseIsChiSquareWithTwoDegreesOfFreedom) {
   const auto stamps = even_stamps(15, 25);
-  const ToneBank bank = bank_of(stamps, {5, 10});
+  const ToneBank bank(stamps, {5, 10});
   std::mt19937 random(5);
   std::normal_distribution<float> normal(0, 2);
   const int trials = 20000;
@@ -108,7 +101,7 @@ TEST(ToneBank, NoiseIsChiSquareWithTwoDegreesOfFreedom) {
 
 TEST(ToneBank, AnAliasOfTheConstantHasNoPower) {
   const auto stamps = even_stamps(15, 25);
-  const ToneBank bank = bank_of(stamps, {25});
+  const ToneBank bank(stamps, {25});
   EXPECT_EQ(power(bank, signal(stamps, 25, 9, 0.2), 0), 0);
 }
 
