@@ -143,10 +143,10 @@ TEST(DetectorAgainstDenseGoertzel, IsTheSameWithinTheStatedRates) {
       if (sighting) {
         explained[static_cast<std::size_t>(sighting - seen.data())] = true;
         miscoded += sighting->tones != beacon.code;
-        dim += best < 0.5 * threshold;  // no pixel near it comes within half of the threshold
+        dim += best < 0.6 * threshold;  // no pixel near it comes near the threshold
       }
       // sqrt of a noncentral chi-square has a sigma of about one.
-      if (std::sqrt(best) < std::sqrt(threshold) + 2) continue;
+      if (std::sqrt(best) < std::sqrt(threshold) + 1) continue;
       ++clear;
       missed += !sighting;
     }
