@@ -124,23 +124,29 @@ class BlobScene {
 
   void expose(const Light& light, double time_s) {
     constexpr double kStep_px = 0.25;
-    if (exposure_s == 0) return add(light, time_s, 1.0);
-    const double travel_px = (light.pixel(time_s + 0.5 * exposure_s) - light.pixel(time_s - 0.5 * exposure_s)).norm();
+    lit_.push_back({width_px, height_px, 0, 0, 0, 0});
+    const double half_s = 0.5 * exposure_s;
+    const double travel_px = (light.pixel(time_s + half_s) - light.pixel(time_s - half_s)).norm();
     if (!(travel_px < 1e3)) return;  // it leaves the lens
-    const int steps = std::clamp(static_cast<int>(std::ceil(travel_px / kStep_px)), 4, 32);
-    for (int i = 0; i < steps; ++i) add(light, time_s + ((i + 0.5) / steps - 0.5) * exposure_s, 1.0 / steps);
+    const int steps = std::clamp(static_cast<int>(std::ceil(travel_px / kStep_px)), 1, 32);
+    const double step_s = exposure_s / steps;
+    for (int i = 0; i < steps; ++i) {
+      const double middle_s = time_s - half_s + (i + 0.5) * step_s;
+      constexpr int kParts = 4;  // of the waveform
+      double sum = 0;
+      for (int part = 0; part < kParts; ++part) sum += light.light(middle_s + ((part + 0.5) / kParts - 0.5) * step_s);
+      shine(light, middle_s, sum / (kParts * steps));
+    }
   }
 
-  void add(const Light& light, double time_s, double weight) {
+  void shine(const Light& light, double time_s, double grey) {
     const double sigma_px = light.sigma_px > 0 ? light.sigma_px : psf_sigma_px;
     const Eigen::Vector2d end = light.pixel(time_s);
-    if (!light.other_end) return add(end, sigma_px, weight * light.light(time_s));
+    if (!light.other_end) return add(end, sigma_px, grey);
     const Eigen::Vector2d tube = light.other_end(time_s) - end;
     if (!(tube.norm() < 1e3)) return;
     const int points = 1 + static_cast<int>(tube.norm() / sigma_px);
-    for (int i = 0; i < points; ++i) {
-      add(end + tube * ((i + 0.5) / points), sigma_px, weight * light.light(time_s) / points);
-    }
+    for (int i = 0; i < points; ++i) add(end + tube * ((i + 0.5) / points), sigma_px, grey / points);
   }
 
   void add(const Eigen::Vector2d& centre, double sigma_px, double light) {
@@ -150,22 +156,20 @@ class BlobScene {
       return;
     }
     const auto u0 = static_cast<int>(std::lround(centre.x())), v0 = static_cast<int>(std::lround(centre.y()));
-    const Pane patch{std::max(0, u0 - reach),
-                     std::max(0, v0 - reach),
-                     std::min(width_px, u0 + reach + 1),
-                     std::min(height_px, v0 + reach + 1),
-                     0,
-                     0};
+    const int u_begin = std::max(0, u0 - reach), u_end = std::min(width_px, u0 + reach + 1);
+    const int v_begin = std::max(0, v0 - reach), v_end = std::min(height_px, v0 + reach + 1);
     column_shares_.clear();
-    for (int u = patch.u0; u < patch.u1; ++u) column_shares_.push_back(share(centre.x(), sigma_px, u));
-    for (int v = patch.v0; v < patch.v1; ++v) {
-      const double row_light = light * share(centre.y(), sigma_px, v);
+    for (int u = u_begin; u < u_end; ++u) column_shares_.push_back(static_cast<float>(share(centre.x(), sigma_px, u)));
+    for (int v = v_begin; v < v_end; ++v) {
+      const auto row_light = static_cast<float>(light * share(centre.y(), sigma_px, v));
       float* row = &light_[static_cast<std::size_t>(v * width_px)];
-      for (int u = patch.u0; u < patch.u1; ++u) {
-        row[u] += static_cast<float>(row_light * column_shares_[static_cast<std::size_t>(u - patch.u0)]);
-      }
+      for (int u = u_begin; u < u_end; ++u) row[u] += row_light * column_shares_[static_cast<std::size_t>(u - u_begin)];
     }
-    lit_.push_back(patch);
+    Pane& lit = lit_.back();
+    lit.u0 = std::min(lit.u0, u_begin);
+    lit.v0 = std::min(lit.v0, v_begin);
+    lit.u1 = std::max(lit.u1, u_end);
+    lit.v1 = std::max(lit.v1, v_end);
   }
 
   template <class Pixel>
@@ -210,8 +214,8 @@ class BlobScene {
 
   Noise random_;
   std::vector<float> light_;  ///< of the lights, zero between frames
-  std::vector<Pane> lit_;     ///< where it is not zero
-  std::vector<double> column_shares_;
+  std::vector<Pane> lit_;     ///< where it may not be zero: one for each light
+  std::vector<float> column_shares_;
   Greys<std::uint8_t> greys8_;
   Greys<std::uint16_t> greys16_;
   std::vector<std::shared_ptr<std::vector<std::uint8_t>>> buffers_;

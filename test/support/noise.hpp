@@ -60,7 +60,7 @@ class Noise {
 
   template <class Pixel>
   static Pixel grey(double value, double white_level) {
-    return static_cast<Pixel>(std::clamp(std::round(value), 0.0, white_level));
+    return static_cast<Pixel>(std::clamp(value + 0.5, 0.0, white_level));
   }
 
  private:

@@ -207,9 +207,11 @@ struct DarkAndHidden {
     constexpr int kOn = 40, kHidden = kOn + 60;
     constexpr double kFocal_px = 400, kHeight_m = 4;
     const int shown = kHidden + hidden_frames;
-    BlobScene scene = vga_scene(seed);
+    BlobScene scene(seed);
+    scene.width_px = 640;
+    scene.height_px = 100;
     scene.electrons_per_level = 20;
-    const double row = 200 + scene.random().uniform(0, 80);
+    const double row = scene.random().uniform(30, 70);
     const double speed_px_s = speed_px * kPlanRate_hz;
     const auto place = [=](double t) { return Eigen::Vector2d(600 - speed_px_s * t, row); };
     const auto light_on = beacon(scene.random(), light, {8, 14}, false);
@@ -217,7 +219,7 @@ struct DarkAndHidden {
                        const auto frame = static_cast<int>(std::lround(t * kPlanRate_hz));
                        return frame < kOn || (frame >= kHidden && frame < shown) ? 0.0 : light_on(t);
                      }}};
-    BeaconDetector detector = detector_for(scene, plan_params(), pinhole(640, 480, kFocal_px));
+    BeaconDetector detector = detector_for(scene, plan_params(), pinhole(scene.width_px, scene.height_px, kFocal_px));
     detector.set_plane_height(kHeight_m);
     CameraMotion motion;
     for (int i = 0; i < shown + 90; ++i) {

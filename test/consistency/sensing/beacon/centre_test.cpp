@@ -15,7 +15,13 @@ class Centre : public testing::TestWithParam<Light> {};
 INSTANTIATE_TEST_SUITE_P(Lights, Centre,
                          testing::Values(Light{0.5, 300, 1}, Light{1.5, 300, 1}, Light{0.7, 1000, 2},
                                          Light{1.0, 10000, 1}, Light{0.5, 10000, 2}, Light{0.5, 100000, 2},
-                                         Light{1.0, 100000, 2}, Light{1.5, 100000, 1}, Light{1.5, 100000, 2}));
+                                         Light{1.0, 100000, 2}, Light{1.5, 100000, 1}, Light{1.5, 100000, 2}),
+                         [](const auto& info) {
+                           const Light& light = info.param;
+                           return "Sigma" + std::to_string(static_cast<int>(10 * light.psf_sigma_px)) + "Electrons" +
+                                  std::to_string(static_cast<int>(light.electrons)) + "Tones" +
+                                  std::to_string(light.tones);
+                         });
 
 TEST_P(Centre, IsNearTheCramerRaoBoundAndItsCovarianceIsHonest) {
   test::CentreTrials trials;

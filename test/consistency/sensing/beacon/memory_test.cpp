@@ -11,7 +11,10 @@ using test::HeapWatch;
 
 class Allocations : public testing::TestWithParam<std::tuple<double, int>> {};
 INSTANTIATE_TEST_SUITE_P(SwingAndBits, Allocations,
-                         testing::Combine(testing::Values(0.0, 20.0), testing::Values(8, 16)));
+                         testing::Combine(testing::Values(0.0, 20.0), testing::Values(8, 16)), [](const auto& info) {
+                           return (std::get<0>(info.param) == 0 ? "Standing" : "Swinging") +
+                                  std::to_string(std::get<1>(info.param));
+                         });
 
 TEST_P(Allocations, NoneForAFrameInSteadyState) {
   if (!HeapWatch::kWorks) GTEST_SKIP() << "malloc cannot be watched here";

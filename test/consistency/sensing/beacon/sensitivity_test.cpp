@@ -12,7 +12,8 @@ namespace {
 double luck(double probability, int n) { return 3 * std::sqrt(probability * (1 - probability) / n); }
 
 class Sensitivity : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Windows, Sensitivity, testing::Values(5, 10, 15, 30, 60));
+INSTANTIATE_TEST_SUITE_P(Windows, Sensitivity, testing::Values(5, 10, 15, 30, 60),
+                         [](const auto& info) { return std::to_string(info.param); });
 
 TEST_P(Sensitivity, IsWithinHalfADecibelOfTheory) {
   test::DetectionTrials trials;
