@@ -12,7 +12,8 @@ constexpr float kSureSigmas = 8.0f;    ///< ... and that may pull it farther tha
 constexpr double kPullPx = 0.3;
 constexpr double kUncertainPx2 = 0.1;  ///< a prediction worse than this is helped by the spot's centroid
 constexpr double kMinGatePx = 1.0, kMaxGatePx = 3.5;
-constexpr float kWidthStep = 0.01f;  ///< of the spot's width; less is not worth a new filter
+constexpr float kWidthStep = 0.01f;  ///< of the spot's width; less is not worth reading the window anew
+constexpr float kMovingWidthStep = 0.05f;
 constexpr float kMinSigmaPx = 0.4f, kMaxSigmaPx = 2.5f;
 
 Eigen::Vector2i nearest(const Eigen::Vector2d& place) { return place.array().round().matrix().cast<int>(); }
@@ -157,9 +158,10 @@ bool BlobTrack::follow_width(double dark_variance) {
   const float wider = (flux_ * widening_).sum() / square;
   const double variance = std::max(dark_variance, pixel_variance_) * filter_.widening_variance();
   if (square < 100 * variance || wider * wider * square < 9 * variance) return false;
-  if (std::abs(wider) < kWidthStep * shape_.sigma_px) return false;
+  if (std::abs(wider) < (path_.still() ? kWidthStep : kMovingWidthStep) * shape_.sigma_px) return false;
   const float reach = 0.3f * shape_.sigma_px, before = shape_.sigma_px;
   shape_.sigma_px = std::clamp(before + std::clamp(wider, -reach, reach), kMinSigmaPx, kMaxSigmaPx);
+  widening_ -= flux_ * (shape_.sigma_px - before);  // as seen from the new width
   return shape_.sigma_px != before;
 }
 

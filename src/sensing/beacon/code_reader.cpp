@@ -51,10 +51,10 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   reading.mean = flux.mean();
   reading.energy = (flux - reading.mean).square().sum();
 
-  // What neither code nor place explains is noise; a blob without a code has only its place to go by.
+  // What neither code nor place explains is noise; a blob that is not a code has only its place to go by.
   double residual = 0;
   int freedom = 0;
-  if (!reading.code.empty()) {
+  if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
     residual += std::max(0.0f, reading.energy - reading.sent) / flux_variance;
     freedom += std::max(0, frames - 1 - 2 * reading.tones);
   }
