@@ -137,7 +137,7 @@ bool BeaconDetector::read_new(BlobTrack& track, const PixelNoise& noise) {
   // Width, clipping and noise decide how the light is read, and the light decides on them: some rounds.
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
-    if (!track.read_window(window_, noise)) return false;
+    if (!track.read_window(window_, window_.size(), noise)) return false;
     reader_.learn(track, bank_, noise.dark_variance);
     if (!track.reshape(noise.dark_variance)) break;
   }

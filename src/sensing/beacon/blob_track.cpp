@@ -14,6 +14,7 @@ constexpr double kUncertainPx2 = 0.1;  ///< a prediction worse than this is help
 constexpr double kMinGatePx = 1.0, kMaxGatePx = 3.5;
 constexpr float kWidthStep = 0.01f;  ///< of the spot's width; less is not worth reading the window anew
 constexpr float kMovingWidthStep = 0.05f;
+constexpr float kMaxClippedPx = 4;   ///< what clips farther out leaves too little of the patch
 constexpr float kMinSigmaPx = 0.4f, kMaxSigmaPx = 2.5f;
 
 Eigen::Vector2i nearest(const Eigen::Vector2d& place) { return place.array().round().matrix().cast<int>(); }
@@ -108,6 +109,7 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   const Eigen::Vector2d pixel = anchor_ + (light.shift / std::max(light.flux, sigma)).cast<double>();
   const bool seen = light.flux > kSeenSigmas * sigma && (pixel - place).norm() < gate;
   const float clipped = patch_.clipped_radius(anchor_, noise.white_level);
+  if (clipped > kMaxClippedPx) return Look::kOutside;
   const int slot = window.newest();
   record(slot, light, clipped);
   newest_flux_ = light.flux;
@@ -124,7 +126,7 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   path_.update(pixel, variance * filter_.shift_variance() / (static_cast<double>(light.flux) * light.flux));
   if (reshape(noise.dark_variance)) {
     if (path_.still()) {
-      read_window(window, noise);
+      read_window(window, frames_, noise);
     } else if (shape_.clipped_radius_px != before) {
       for (int older = frames_ - 1; older >= 0; --older) {
         const int at = window.slot(older);
@@ -181,10 +183,9 @@ bool BlobTrack::follow_shot_noise(double dark_variance) {
   return true;
 }
 
-bool BlobTrack::read_window(const FrameWindow& window, const PixelNoise& noise) {
+bool BlobTrack::read_window(const FrameWindow& window, int frames, const PixelNoise& noise) {
   const Eigen::Vector2d place = path_.pixel();
-  frames_ = 0;
-  for (int age = 0; age < window.size(); ++age)
+  for (int age = 0; age < frames; ++age)
     if (!look_back(window, age, place, noise)) return false;
   return true;
 }
@@ -193,7 +194,9 @@ bool BlobTrack::look_back(const FrameWindow& window, int age, const Eigen::Vecto
   const int slot = window.slot(age);
   aim(place);
   if (!patch_.read(window.at(slot), nearest(anchor_))) return false;
-  record(slot, filter_.read(patch_), patch_.clipped_radius(anchor_, noise.white_level));
+  const float clipped = patch_.clipped_radius(anchor_, noise.white_level);
+  if (clipped > kMaxClippedPx) return false;
+  record(slot, filter_.read(patch_), clipped);
   frames_ = std::max(frames_, age + 1);
   return true;
 }

@@ -8,16 +8,23 @@ namespace {
 
 constexpr double kCoverPx = 5;         ///< a change this near to a blob is its own
 constexpr double kTwinPx = 2;
-constexpr int kYoungFrames = 4;        ///< until then a blob is looked for among all changes
+constexpr int kYoungHits = 4;          ///< until then a blob is looked for among all changes
 constexpr double kMaxYoungGatePx = 20;
 constexpr double kFirstSigmaPx = 0.7;  ///< of a cell's centre
 constexpr double kFirstSpeedPxS = 500; ///< one sigma, beside the prediction
-constexpr int kLookBackFrames = 8;     ///< along a velocity that is only just known
+constexpr int kLookBackFrames = 8;     ///< at a time; each 4 hits the velocity is known better
+constexpr int kLookBackHits = 16;
 constexpr int kHiddenWindows = 5;      ///< how long a hidden beacon is waited for
 
 /// A change's place: the middle of its cell, which is its upper left pixel's lower right corner.
 Eigen::Vector2d middle(const ChangeScan::Change& change) {
   return change.pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
+}
+
+/// Whether what changes at `pixel` is the blob's doing; one that clips is seen far around.
+bool is_near(const BlobTrack& track, const Eigen::Vector2d& pixel) {
+  const double reach = kCoverPx + 1.5 * static_cast<double>(track.shape().clipped_radius_px);
+  return (track.path().pixel() - pixel).squaredNorm() < reach * reach;
 }
 
 }  // namespace
@@ -28,9 +35,8 @@ BlobTracker::BlobTracker(int window_frames, int max_blobs)
               BlobTrack(PathFilter(Eigen::Vector2d::Zero(), window_frames), window_frames)) {}
 
 bool BlobTracker::covers(const Eigen::Vector2d& pixel) const {
-  return std::any_of(tracks_.begin(), tracks_.begin() + static_cast<std::ptrdiff_t>(count_), [&](const BlobTrack& t) {
-    return (t.path().pixel() - pixel).squaredNorm() < kCoverPx * kCoverPx;
-  });
+  return std::any_of(tracks_.begin(), tracks_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [&](const BlobTrack& track) { return is_near(track, pixel); });
 }
 
 BlobTrack* BlobTracker::start_still(const Eigen::Vector2d& pixel, double variance) {
@@ -54,7 +60,7 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
   track.predict(predicted, seconds(window.at(slot).stamp - window.at(window.slot(1)).stamp));
 
   Eigen::Vector2d place = track.path().pixel();
-  const bool young = !track.path().still() && track.age_frames() < kYoungFrames;
+  const bool young = !track.path().still() && track.hits() < kYoungHits;
   if (young) {
     // The nearest light that has come within reach; a blob that hardly moves shows none and is looked for in place.
     const double gate = std::min(kMaxYoungGatePx, 3.0 * std::sqrt(track.path().variance()) + 1.0);
@@ -74,17 +80,20 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
   if (look == BlobTrack::Look::kOutside || !motion.camera->contains(track.path().pixel())) return false;
   // What has come to rest, or is just known, was there before: its window need not fill up from now on.
   const bool rests = !was_still && track.path().still() && !track.hidden;
-  if (rests || (look == BlobTrack::Look::kSeen && young && track.age_frames() == kYoungFrames))
+  const bool better_known = !track.path().still() && track.hits() % kYoungHits == 0 && track.hits() <= kLookBackHits;
+  if (rests || (look == BlobTrack::Look::kSeen && better_known && !track.hidden))
     look_back(track, window, motion, noise);
 
   const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;
-  return track.unseen_frames() <= std::min(patience, 2 * track.hits());
+  // One hit says nothing of the way; the dark half of an on-off beacon is bridged from the second on.
+  const int known_for = track.hits() == 1 ? 1 : 3 * track.hits();
+  return track.unseen_frames() <= std::min(patience, known_for);
 }
 
 void BlobTracker::look_back(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion,
                             const PixelNoise& noise) const {
   if (track.path().still()) {
-    track.read_window(window, noise);
+    track.read_window(window, window.size(), noise);
     return;
   }
   Eigen::Vector2d place = track.path().pixel();
@@ -105,7 +114,7 @@ void BlobTracker::follow(const FrameWindow& window, const Changes& risen, const 
   taken_.assign(risen.size(), false);
   const auto mark = [&](const BlobTrack& track) {
     for (std::size_t i = 0; i < risen.size(); ++i)
-      if ((middle(risen[i]) - track.path().pixel()).squaredNorm() < kCoverPx * kCoverPx) taken_[i] = true;
+      if (is_near(track, middle(risen[i]))) taken_[i] = true;
   };
   // The order is that of age, and kept: what old ones explain does not tempt the young.
   std::size_t kept = 0;

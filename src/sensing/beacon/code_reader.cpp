@@ -2,14 +2,18 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace lodestar {
 namespace {
 
 constexpr double kModelSigmaPx = 0.0005;  ///< what the spot's shape leaves open of its centre
-constexpr int kMaxColumns = 7;           ///< a constant and three tones
+constexpr int kMaxTonesPerCode = 3;
+constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
+using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
 /// Residual of flux * offset = shift with the best offset.
 float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& shift, float flux_square) {
@@ -27,26 +31,69 @@ bool CodeReader::varies(const BlobTrack& track, double dark_variance) const {
   return energy > dark_variance * track.filter().flux_variance() * (frames + 8 * std::sqrt(2 * frames));
 }
 
+CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
+  // The strongest tones are fitted together and taken off the others: on uneven stamps they leak.
+  const auto power = [&](int tone) { return projections_.segment<2>(2 * tone).squaredNorm(); };
+  std::array<int, ToneSet::kMaxTones> order;
+  std::iota(order.begin(), order.end(), 0);
+  const auto most = static_cast<std::ptrdiff_t>(std::min(kMaxTonesPerCode, bank.tones()));
+  std::partial_sort(order.begin(), order.begin() + most, order.begin() + bank.tones(),
+                    [&](int a, int b) { return power(a) > power(b); });
+  Fit fit;
+  ToneSet set;
+  for (int n = 1; n <= most; ++n) {
+    set.insert(order[static_cast<std::size_t>(n - 1)]);
+    std::array<int, kMaxTonesPerCode> tones;
+    for (int tone = 0, c = 0; tone < bank.tones(); ++tone)
+      if (set.contains(tone)) tones[static_cast<std::size_t>(c++)] = tone;
+    SmallMatrix gram(2 * n, 2 * n);
+    fit.amplitudes.resize(2 * n);
+    for (int r = 0; r < n; ++r) {
+      const int row = 2 * tones[static_cast<std::size_t>(r)];
+      fit.amplitudes.segment<2>(2 * r) = projections_.segment<2>(row);
+      for (int c = 0; c < n; ++c)
+        gram.block<2, 2>(2 * r, 2 * c) = bank.gram().block<2, 2>(row, 2 * tones[static_cast<std::size_t>(c)]);
+    }
+    gram.ldlt().solveInPlace(fit.amplitudes);
+
+    TonePowers powers(bank.tones());
+    for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
+      if (set.contains(tone)) {
+        powers[tone] = fit.amplitudes.segment<2>(2 * c++).squaredNorm() - noise_power;
+        continue;
+      }
+      Eigen::Vector2f left = projections_.segment<2>(2 * tone);
+      for (int k = 0; k < n; ++k)
+        left -= bank.gram().block<2, 2>(2 * tone, 2 * tones[static_cast<std::size_t>(k)]) *
+                fit.amplitudes.segment<2>(2 * k);
+      powers[tone] = left.squaredNorm() - noise_power;
+    }
+    fit.code = decide_code(powers, params_.code);
+    if (fit.code == set) return fit;
+  }
+  fit.code = ToneSet();
+  return fit;
+}
+
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<int>(flux.size());
   const float flux_variance = track.filter().flux_variance();
   projections_.noalias() = bank.basis() * flux.matrix();
-  const auto power = [&](int tone) { return projections_.segment<2>(2 * tone).squaredNorm(); };
-  TonePowers powers(bank.tones());
-  for (int k = 0; k < bank.tones(); ++k) powers[k] = power(k) - 2 * static_cast<float>(dark_variance) * flux_variance;
 
   Reading reading;
-  reading.code = decide_code(powers, params_.code);
+  const Fit fit = fit_code(bank, 2 * static_cast<float>(dark_variance) * flux_variance);
+  reading.code = fit.code;
   wave_.setZero();
   float weakest = std::numeric_limits<float>::max();
-  for (int k = 0; k < bank.tones(); ++k) {
-    if (!reading.code.contains(k)) continue;
-    wave_ += projections_[2 * k] * bank.basis().row(2 * k).transpose().array() +
-             projections_[2 * k + 1] * bank.basis().row(2 * k + 1).transpose().array();
-    reading.sent += power(k);
-    weakest = std::min(weakest, power(k));
+  for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
+    if (!fit.code.contains(tone)) continue;
+    wave_ += fit.amplitudes[c] * bank.basis().row(2 * tone).transpose().array() +
+             fit.amplitudes[c + 1] * bank.basis().row(2 * tone + 1).transpose().array();
+    reading.sent += fit.amplitudes.segment<2>(c).dot(projections_.segment<2>(2 * tone));
+    weakest = std::min(weakest, fit.amplitudes.segment<2>(c).squaredNorm());
     ++reading.tones;
+    c += 2;
   }
   reading.mean = flux.mean();
   reading.energy = (flux - reading.mean).square().sum();
@@ -81,8 +128,7 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
                                           double dark_variance) {
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
   const int columns = 1 + 2 * track.code.size();
-  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns> normal(columns, columns);
-  normal.setZero();
+  SmallMatrix normal = SmallMatrix::Zero(columns, columns);
   Columns right = Columns::Zero(columns), row(columns);
   const auto fill = [&](int slot) {
     int c = 0;
@@ -115,6 +161,7 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
   }
   Reading reading;
   reading.code = track.code;
+  reading.tones = track.code.size();
   reading.mean = x[0];
   const float flux_variance = track.filter().flux_variance();
   reading.pixel_variance = left / static_cast<float>(std::max(1, track.frames() - columns)) / flux_variance;
@@ -127,18 +174,18 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
   return reading;
 }
 
-bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading) const {
-  // An on-off beacon is further from its tone than one that is dimmed.
-  const float limit = (reading.code.size() == 1 ? 1.6f : 0.7f) * reading.mean;
-  const float sigma = std::sqrt(static_cast<float>(reading.pixel_variance) * track.filter().flux_variance());
+bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading,
+                          double dark_variance) const {
+  constexpr float kDarkShare = 0.3f;  ///< of the light that is expected
+  // An on-off beacon is farther from its tone than one that is dimmed.
+  const float limit = (reading.tones == 1 ? 1.6f : 0.7f) * reading.mean;
+  const float sigma = std::sqrt(static_cast<float>(dark_variance) * track.filter().flux_variance());
   float missing = 0;
   for (int age = 0; age < track.frames(); ++age) {
     const int slot = window.slot(age);
     const float expected = reading.mean + wave_[slot], flux = track.flux()[slot];
-    if (flux > 0.3f * expected || expected - flux < 3 * sigma) {
-      if (expected > 0.3f * reading.mean) break;  // its light is there
-      continue;                                   // it is dark by itself
-    }
+    if (expected < std::max(kDarkShare * reading.mean, 5 * sigma)) continue;  // it is dark by itself
+    if (flux > kDarkShare * expected) return false;
     missing += expected;
     if (missing > limit) return true;
   }
@@ -175,12 +222,13 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
   const Reading reading =
       whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
   if (whole) track.learn_noise(reading.pixel_variance);
-  if (reading.code.empty() || !reading.explained || reading.weakest_over_noise < power_threshold) return std::nullopt;
-  if (has_gone(track, window, reading)) {
-    track.code = reading.code;
+  if (reading.code.empty() || !reading.explained) return std::nullopt;
+  // Before the test of power: what has gone leaves a residual that looks like noise.
+  if (reading.code == track.code && has_gone(track, window, reading, dark_variance)) {
     track.hide();
     return std::nullopt;
   }
+  if (reading.weakest_over_noise < power_threshold) return std::nullopt;
   if (whole) {
     track.code = reading.code;
     track.hidden = false;

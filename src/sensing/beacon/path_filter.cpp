@@ -9,6 +9,7 @@ namespace {
 constexpr double kStillStepPx = 0.05;       ///< a predicted step longer than this is motion
 constexpr double kSurpriseSigmas = 4.0;     ///< twice in a row and in one direction: a standing blob has begun to move
 constexpr double kModelSigmaPx = 0.02;      ///< what the spot's shape leaves open
+constexpr double kBlurShare = 0.015, kMaxBlurSigmaPx = 0.2;  ///< ... and of a blur, by the way from frame to frame
 constexpr double kMinJerk = 1e2, kMaxJerk = 1e9;
 
 }  // namespace
@@ -25,7 +26,7 @@ void PathFilter::start_moving(double variance, double sigma_px_s) {
   P_.diagonal() << variance, sigma_px_s * sigma_px_s, std::pow(sigma_px_s / kAccelerationTime_s, 2);
   velocity_.setZero();
   acceleration_.setZero();
-  quiet_frames_ = 0;
+  near_frames_ = 0;
 }
 
 double PathFilter::variance() const { return still_ ? squares_ / (information_ * information_) : P_(0, 0); }
@@ -43,6 +44,7 @@ void PathFilter::predict(const Eigen::Vector2d& predicted, double interval_s) {
     start_moving(variance(), 0.3 * step.norm() / interval_s + 30.0);
   }
   const double t = interval_s;
+  travel_px_ = (step + velocity_ * t).norm();
   pixel_ += step + velocity_ * t + acceleration_ * (0.5 * t * t);
   velocity_ += acceleration_ * t;
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity(), Q;
@@ -81,7 +83,9 @@ void PathFilter::stay(const Eigen::Vector2d& innovation, double variance) {
 }
 
 void PathFilter::move(const Eigen::Vector2d& innovation, double variance) {
-  const double S = P_(0, 0) + variance + kModelSigmaPx * kModelSigmaPx;
+  // Light that changes within an exposure moves the middle of a blurred spot.
+  const double model_sigma = kModelSigmaPx + std::min(kMaxBlurSigmaPx, kBlurShare * travel_px_);
+  const double S = P_(0, 0) + variance + model_sigma * model_sigma;
   const Eigen::Vector3d K = P_.col(0) / S;
   pixel_ += K[0] * innovation;
   velocity_ += K[1] * innovation;
@@ -92,15 +96,18 @@ void PathFilter::move(const Eigen::Vector2d& innovation, double variance) {
   const double surprise = 0.5 * innovation.squaredNorm() / S;
   jerk_density_ = std::clamp(jerk_density_ * (surprise > 3 ? 3.0 : surprise < 1 ? 0.93 : 1.0), kMinJerk, kMaxJerk);
 
-  constexpr double kQuietPx = 0.15, kMaxQuietPx = 0.6;
+  // It rests when it has kept within its noise for a while, or near for twice as long (a clipped spot's noise is not
+  // known so well).
+  constexpr double kQuietPx = 0.15, kNearPx = 0.6;
   const int quiet_for = std::clamp(memory_frames_ / 3, 3, 12);
-  const double reach = std::min(kQuietPx + 2.0 * std::sqrt(S), kMaxQuietPx);
-  if (quiet_frames_ == 0 || (pixel_ - quiet_pixel_).norm() > reach) {
+  const double distance = (pixel_ - quiet_pixel_).norm();
+  if (near_frames_ == 0 || distance > kNearPx) {
     quiet_pixel_ = pixel_;
-    quiet_frames_ = 1;
-  } else if (++quiet_frames_ > quiet_for) {
-    start_still(std::max(P_(0, 0), S / quiet_for));
+    near_frames_ = quiet_frames_ = 0;
   }
+  ++near_frames_;
+  quiet_frames_ = distance < kQuietPx + 2.0 * std::sqrt(S) ? quiet_frames_ + 1 : 0;
+  if (quiet_frames_ > quiet_for || near_frames_ > 2 * quiet_for) start_still(std::max(P_(0, 0), S / quiet_for));
 }
 
 }  // namespace lodestar

@@ -61,12 +61,11 @@ bool Patch::read(const Image& image, const Eigen::Vector2i& centre_px) {
 
 float Patch::clipped_radius(const Eigen::Vector2d& place, float white_level) const {
   if (values.maxCoeff() < white_level) return 0;
-  constexpr double kBlurPx = 0.6;  // a pixel beside a clipped one is partly clipped, too
   double radius = 0;
   for (int i = 0; i < kPixels; ++i) {
     if (values[i] < white_level) continue;
     const Eigen::Vector2d pixel = (centre + Eigen::Vector2i(i % kSide - kHalf, i / kSide - kHalf)).cast<double>();
-    radius = std::max(radius, (pixel - place).norm() + kBlurPx);
+    radius = std::max(radius, (pixel - place).norm());
   }
   return static_cast<float>(radius);
 }

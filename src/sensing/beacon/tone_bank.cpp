@@ -9,7 +9,8 @@ namespace lodestar {
 ToneBank::ToneBank(int slots, const std::vector<double>& tones_hz)
     : tones_hz_(tones_hz),
       waves_(Basis::Zero(2 * static_cast<Eigen::Index>(tones_hz.size()), slots)),
-      basis_(waves_) {}
+      basis_(waves_),
+      gram_(Basis::Identity(basis_.rows(), basis_.rows())) {}
 
 ToneBank::ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz)
     : ToneBank(static_cast<int>(stamps.size()), tones_hz) {
@@ -43,6 +44,7 @@ void ToneBank::update() {
     sine -= cosine.dot(sine) * cosine;
     normalize_or_clear(sine);
   }
+  gram_.noalias() = basis_ * basis_.transpose();
 }
 
 }  // namespace lodestar

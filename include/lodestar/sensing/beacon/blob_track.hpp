@@ -31,7 +31,7 @@ class BlobTrack {
   /// The newest frame is about to be looked at; the camera's motion takes the blob to `predicted`.
   void predict(const Eigen::Vector2d& predicted, double interval_s) { path_.predict(predicted, interval_s); }
 
-  enum class Look { kSeen, kDark, kOutside };
+  enum class Look { kSeen, kDark, kOutside };  ///< outside: of the image, or lost in a surface that clips
   /// Finds the blob in the newest frame near `place` and reads its light; what is not within the gate is not it.
   Look look(const FrameWindow& window, const Eigen::Vector2d& place, const PixelNoise& noise);
 
@@ -39,8 +39,8 @@ class BlobTrack {
   /// ends. False: outside the image.
   bool look_back(const FrameWindow& window, int age, const Eigen::Vector2d& place, const PixelNoise& noise);
 
-  /// Reads all frames of the window anew, as a standing blob. False: outside the image.
-  bool read_window(const FrameWindow& window, const PixelNoise& noise);
+  /// Reads the newest `frames` anew, as a standing blob. False: outside the image.
+  bool read_window(const FrameWindow& window, int frames, const PixelNoise& noise);
 
   /// What the light of the window says of the spot's width, clipped core and shot noise. True when that is news: the
   /// window should be read anew.

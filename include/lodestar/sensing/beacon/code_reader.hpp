@@ -43,10 +43,16 @@ class CodeReader {
     double pixel_variance = 0;     ///< as the residual has it
     bool explained = false;        ///< the code accounts for enough of the varying light
   };
+  /// The code's tones, fitted together.
+  struct Fit {
+    ToneSet code;                                                 ///< empty: none that keeps the margins
+    Eigen::Matrix<float, Eigen::Dynamic, 1, 0, 7, 1> amplitudes;  ///< of the basis' rows, two a tone, ascending
+  };
+  Fit fit_code(const ToneBank& bank, float noise_power);
   Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                    double dark_variance);
-  bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading) const;
+  bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
   void refine_centre(BlobTrack& track, const Reading& reading);
 
   CodeReaderParams params_;

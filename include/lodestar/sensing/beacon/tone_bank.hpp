@@ -36,6 +36,10 @@ class ToneBank {
   int slots() const { return static_cast<int>(basis_.cols()); }
   const Basis& basis() const { return basis_; }
 
+  /// Products of the basis' rows with each other: the identity on even stamps with whole periods; what lost and late
+  /// frames make of it tells how much one tone leaks into another.
+  const Basis& gram() const { return gram_; }
+
   /// cos and sin of the tones at the slots' stamps, as they are: rows as in basis().
   const Basis& waves() const { return waves_; }
 
@@ -43,7 +47,7 @@ class ToneBank {
   std::vector<double> tones_hz_;
   Stamp epoch_;  ///< of the phases; the first frame's stamp
   bool started_ = false;
-  Basis waves_, basis_;
+  Basis waves_, basis_, gram_;
 };
 
 }  // namespace lodestar
