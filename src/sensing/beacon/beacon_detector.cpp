@@ -53,6 +53,7 @@ void BeaconDetector::reset() {
   scan_.clear();
   tracker_.clear();
   lags_for_s_ = 0;
+  searches_left_ = 0;
 }
 
 std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
@@ -117,23 +118,22 @@ void BeaconDetector::choose_lags() {
 }
 
 void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
-  int misses = 0;
   for (const ChangeScan::Change& change : scan_.restless()) {
     if (tracker_.covers(change.pixel.cast<double>())) continue;
-    if (misses == scan_.budget()) {
+    if (searches_left_ <= 0) {
       scan_.defer(change.pixel);
       continue;
     }
     const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, noise);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
-    const bool found = track && read_new(*track, noise);
+    const bool found = track && read_new(*track, power_threshold, noise);
     if (track && !found) tracker_.drop_last();
     scan_.settle(change.pixel, found);
-    misses += found ? 0 : 1;
+    searches_left_ -= found ? 0 : 1;
   }
 }
 
-bool BeaconDetector::read_new(BlobTrack& track, const PixelNoise& noise) {
+bool BeaconDetector::read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise) {
   // Width, clipping and noise decide how the light is read, and the light decides on them: some rounds.
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
@@ -141,7 +141,7 @@ bool BeaconDetector::read_new(BlobTrack& track, const PixelNoise& noise) {
     reader_.learn(track, bank_, noise.dark_variance);
     if (!track.reshape(noise.dark_variance)) break;
   }
-  return reader_.varies(track, noise.dark_variance);
+  return reader_.varies(track, bank_, power_threshold, noise.dark_variance);
 }
 
 Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const CameraMotion& camera_motion,
@@ -159,6 +159,8 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
   scan_.push(image);
   const PixelNoise noise{scan_.pixel_variance(),
                          static_cast<float>(params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0))};
+  // What was not used while the window filled up, or the image moved, is there for what waits.
+  searches_left_ = std::min(searches_left_ + scan_.budget(), params_.window_frames * scan_.budget());
   if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, noise);
 
   Sightings result = std::move(reuse);

@@ -85,6 +85,7 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
     look_back(track, window, motion, noise);
 
   const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;
+  if (track.path().still()) return track.unseen_frames() <= patience;
   // One hit says nothing of the way; the dark half of an on-off beacon is bridged from the second on.
   const int known_for = track.hits() == 1 ? 1 : 3 * track.hits();
   return track.unseen_frames() <= std::min(patience, known_for);

@@ -103,8 +103,7 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
     start(image, planes);
   risen_.clear();
   restless_.clear();
-  const auto lag = static_cast<std::uint64_t>(lags_[frames_ % 2]);
-  const bool settled = frames_ >= static_cast<std::uint64_t>(kMaxLag);
+  const auto lag = std::min(frames_, static_cast<std::uint64_t>(lags_[frames_ % 2]));
   auto& now = planes.cells[frames_ % (kMaxLag + 1)];
   const auto& before = planes.cells[(frames_ + kMaxLag + 1 - lag) % (kMaxLag + 1)];
 
@@ -148,7 +147,7 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
            units);
   }
   ++frames_;
-  if (!settled) {
+  if (lag == 0) {
     std::fill(planes.energy.begin(), planes.energy.end(), Lane{0});
     return;
   }

@@ -25,10 +25,16 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 
 CodeReader::CodeReader(const CodeReaderParams& params, int slots) : params_(params), wave_(slots), weights_(slots) {}
 
-bool CodeReader::varies(const BlobTrack& track, double dark_variance) const {
-  const auto frames = static_cast<float>(track.flux().size());
-  const float energy = (track.flux() - track.flux().mean()).square().sum();
-  return energy > dark_variance * track.filter().flux_variance() * (frames + 8 * std::sqrt(2 * frames));
+bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance) {
+  constexpr double kNearThreshold = 0.7, kEnergySigmas = 8;
+  const double noise = dark_variance * track.filter().flux_variance();
+  const auto frames = static_cast<double>(track.flux().size());
+  const double energy = (track.flux() - track.flux().mean()).square().sum();
+  if (energy > noise * (frames + kEnergySigmas * std::sqrt(2 * frames))) return true;
+  projections_.noalias() = bank.basis() * track.flux().matrix();
+  for (int tone = 0; tone < bank.tones(); ++tone)
+    if (projections_.segment<2>(2 * tone).squaredNorm() > kNearThreshold * power_threshold * noise) return true;
+  return false;
 }
 
 CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
@@ -178,7 +184,7 @@ bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, con
                           double dark_variance) const {
   constexpr float kDarkShare = 0.3f;  ///< of the light that is expected
   // An on-off beacon is farther from its tone than one that is dimmed.
-  const float limit = (reading.tones == 1 ? 1.6f : 0.7f) * reading.mean;
+  const float limit = (reading.tones == 1 ? 2.5f : 0.7f) * reading.mean;
   const float sigma = std::sqrt(static_cast<float>(dark_variance) * track.filter().flux_variance());
   float missing = 0;
   for (int age = 0; age < track.frames(); ++age) {

@@ -10,13 +10,14 @@
 namespace lodestar::test {
 
 /// The one place where tests, reports and benchmarks call the detector.
-inline decltype(auto) process(BeaconDetector& detector, const Image& image, const CameraMotion& motion) {
-  return detector.process(image, motion);
+inline Result<Sightings, FrameDrop> process(BeaconDetector& detector, const Image& image, const CameraMotion& motion,
+                                            Sightings reuse = {}) {
+  return detector.process(image, motion, std::move(reuse));
 }
 
 /// What is sighted in this frame; nothing where the frame is dropped.
 inline std::vector<Sighting> detect(BeaconDetector& detector, const Image& image, const CameraMotion& motion) {
-  const auto& result = process(detector, image, motion);
+  const auto result = process(detector, image, motion);
   return result ? result->sightings : std::vector<Sighting>();
 }
 

@@ -76,7 +76,7 @@ class BeaconDetector {
   bool image_moves() const;
   void choose_lags();
   void discover(double power_threshold, const PixelNoise& noise);
-  bool read_new(BlobTrack& track, const PixelNoise& noise);
+  bool read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise);
 
   BeaconDetectorParams params_;
   FrameWindow window_;
@@ -88,6 +88,7 @@ class BeaconDetector {
   std::shared_ptr<const CameraModel> camera_;
   ImageMotion motion_;
   double lags_for_s_ = 0;  ///< frame period that the scan's lags were chosen for
+  int searches_left_ = 0;  ///< without a find, until the next frame
   DropCounts<FrameDrop> drops_;
 };
 

@@ -30,8 +30,8 @@ class CodeReader {
   /// Learns the noise of a new blob's pixels and its centre from a full window.
   void learn(BlobTrack& track, const ToneBank& bank, double dark_variance);
 
-  /// Whether the light of a full window varies more than noise does.
-  bool varies(const BlobTrack& track, double dark_variance) const;
+  /// Whether the light of a full window varies more than noise does: in all, or at a tone.
+  bool varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance);
 
  private:
   struct Reading {

@@ -26,16 +26,15 @@ TEST_P(Allocations, NoneForAFrameInSteadyState) {
   CameraMotion motion;
   long allocations = 0;
   std::size_t seen = 0;
+  Sightings last;
   for (int i = 0; i < 240; ++i) {
     Image image = images[static_cast<std::size_t>(i % 60)];
     image.stamp = images[0].stamp + from_seconds(i / test::kPlanRate_hz);
     if (swing_px == 0) motion.add_odometry({image.stamp, {0, 0}, 0, Eigen::Vector3d::Zero(), 0});
     const long before = HeapWatch::allocations;
-    {
-      const auto& result = test::process(detector, image, motion);
-      if (i >= 120) allocations += HeapWatch::allocations - before;
-      seen = result->sightings.size();
-    }
+    last = test::process(detector, image, motion, std::move(last)).value();
+    if (i >= 120) allocations += HeapWatch::allocations - before;
+    seen = last.sightings.size();
   }
   EXPECT_EQ(allocations, 0) << "in 120 frames";
   EXPECT_EQ(seen, 12u) << "what is measured is a detector at work";
