@@ -126,8 +126,12 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
     }
     const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, noise);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
-    const bool found = track && read_new(*track, power_threshold, noise);
+    // A moving blob may be here as well: only a code that stands the test takes its place.
+    const bool suspected = tracker_.suspects(change.pixel.cast<double>());
+    const bool found = track && read_new(*track, power_threshold, noise) &&
+                       (!suspected || reader_.read(*track, window_, bank_, power_threshold, noise.dark_variance));
     if (track && !found) tracker_.drop_last();
+    if (found && suspected) tracker_.drop_suspects_of_last();
     scan_.settle(change.pixel, found);
     searches_left_ -= found ? 0 : 1;
   }
@@ -135,11 +139,13 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
 
 bool BeaconDetector::read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise) {
   // Width, clipping and noise decide how the light is read, and the light decides on them: some rounds.
-  constexpr int kRounds = 5;
+  constexpr int kRounds = 6;
+  constexpr double kAimedPx = 0.005;
   for (int round = 0; round < kRounds; ++round) {
     if (!track.read_window(window_, window_.size(), noise)) return false;
     reader_.learn(track, bank_, noise.dark_variance);
-    if (!track.reshape(noise.dark_variance)) break;
+    const bool aimed = (track.path().pixel() - track.anchor()).norm() < kAimedPx;
+    if (!track.reshape(noise.dark_variance) && aimed) break;
   }
   return reader_.varies(track, bank_, power_threshold, noise.dark_variance);
 }

@@ -6,7 +6,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double kAimPx = 0.04;        ///< a filter serves places this near to its own
+constexpr double kAimPx = 0.02;        ///< a filter serves places this near to its own
 constexpr float kSeenSigmas = 3.0f;    ///< light of one frame that places the blob
 constexpr float kSureSigmas = 8.0f;    ///< ... and that may pull it farther than one step
 constexpr double kPullPx = 0.3;

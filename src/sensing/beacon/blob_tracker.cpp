@@ -14,12 +14,16 @@ constexpr double kFirstSigmaPx = 0.7;  ///< of a cell's centre
 constexpr double kFirstSpeedPxS = 500; ///< one sigma, beside the prediction
 constexpr int kLookBackFrames = 8;     ///< at a time; each 4 hits the velocity is known better
 constexpr int kLookBackHits = 16;
+constexpr int kUnreadPatience = 3;
+constexpr float kBirthSigmas = 12;     ///< of one frame's light; fainter blobs show at rest, by their energy
 constexpr int kHiddenWindows = 5;      ///< how long a hidden beacon is waited for
 
 /// A change's place: the middle of its cell, which is its upper left pixel's lower right corner.
 Eigen::Vector2d middle(const ChangeScan::Change& change) {
   return change.pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
 }
+
+bool is_known(const BlobTrack& track) { return track.path().still() || !track.code.empty(); }
 
 /// Whether what changes at `pixel` is the blob's doing; one that clips is seen far around.
 bool is_near(const BlobTrack& track, const Eigen::Vector2d& pixel) {
@@ -34,9 +38,28 @@ BlobTracker::BlobTracker(int window_frames, int max_blobs)
       tracks_(static_cast<std::size_t>(max_blobs),
               BlobTrack(PathFilter(Eigen::Vector2d::Zero(), window_frames), window_frames)) {}
 
+template <class Keep>
+void BlobTracker::keep_if(Keep&& keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (!keep(tracks_[i])) continue;
+    if (kept != i) std::swap(tracks_[kept], tracks_[i]);
+    ++kept;
+  }
+  count_ = kept;
+}
+
 bool BlobTracker::covers(const Eigen::Vector2d& pixel) const {
-  return std::any_of(tracks_.begin(), tracks_.begin() + static_cast<std::ptrdiff_t>(count_),
-                     [&](const BlobTrack& track) { return is_near(track, pixel); });
+  return std::any_of(begin(), end(), [&](const BlobTrack& track) { return is_known(track) && is_near(track, pixel); });
+}
+
+bool BlobTracker::suspects(const Eigen::Vector2d& pixel) const {
+  return std::any_of(begin(), end(), [&](const BlobTrack& track) { return !is_known(track) && is_near(track, pixel); });
+}
+
+void BlobTracker::drop_suspects_of_last() {
+  const Eigen::Vector2d pixel = tracks_[count_ - 1].path().pixel();
+  keep_if([&](const BlobTrack& track) { return is_known(track) || !is_near(track, pixel); });
 }
 
 BlobTrack* BlobTracker::start_still(const Eigen::Vector2d& pixel, double variance) {
@@ -85,7 +108,8 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
     look_back(track, window, motion, noise);
 
   const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;
-  if (track.path().still()) return track.unseen_frames() <= patience;
+  // At rest, what was read once may be too faint for a frame; what never was is only in the way.
+  if (track.path().still()) return track.unseen_frames() <= (track.code.empty() ? kUnreadPatience : patience);
   // One hit says nothing of the way; the dark half of an on-off beacon is bridged from the second on.
   const int known_for = track.hits() == 1 ? 1 : 3 * track.hits();
   return track.unseen_frames() <= std::min(patience, known_for);
@@ -118,30 +142,24 @@ void BlobTracker::follow(const FrameWindow& window, const Changes& risen, const 
       if (is_near(track, middle(risen[i]))) taken_[i] = true;
   };
   // The order is that of age, and kept: what old ones explain does not tempt the young.
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (!follow_one(tracks_[i], window, risen, motion, noise)) continue;
-    mark(tracks_[i]);
-    if (kept != i) std::swap(tracks_[kept], tracks_[i]);
-    ++kept;
-  }
-  count_ = kept;
+  keep_if([&](BlobTrack& track) {
+    if (!follow_one(track, window, risen, motion, noise)) return false;
+    mark(track);
+    return true;
+  });
   drop_twins();
   begin_new(window, risen, noise);
 }
 
 void BlobTracker::drop_twins() {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const auto older = tracks_.begin() + static_cast<std::ptrdiff_t>(kept);
-    const bool twin = std::any_of(tracks_.begin(), older, [&](const BlobTrack& other) {
-      return (other.path().pixel() - tracks_[i].path().pixel()).squaredNorm() < kTwinPx * kTwinPx;
+  const BlobTrack* kept = begin();
+  keep_if([&](const BlobTrack& track) {
+    const bool twin = std::any_of(const_cast<const BlobTrack*>(begin()), kept, [&](const BlobTrack& other) {
+      return (other.path().pixel() - track.path().pixel()).squaredNorm() < kTwinPx * kTwinPx;
     });
-    if (twin) continue;
-    if (kept != i) std::swap(tracks_[kept], tracks_[i]);
-    ++kept;
-  }
-  count_ = kept;
+    kept += twin ? 0 : 1;
+    return !twin;
+  });
 }
 
 void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, const PixelNoise& noise) {
@@ -152,7 +170,9 @@ void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, con
     BlobTrack& track = tracks_[count_];
     track.restart(path);
     if (track.look(window, path.pixel(), noise) != BlobTrack::Look::kSeen) continue;
-    if (covers(track.path().pixel())) continue;
+    const double variance = noise.dark_variance * track.filter().flux_variance();
+    if (track.newest_flux() < kBirthSigmas * std::sqrt(variance)) continue;
+    if (covers(track.path().pixel()) || suspects(track.path().pixel())) continue;
     ++count_;
   }
 }

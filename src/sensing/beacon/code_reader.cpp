@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelSigmaPx = 0.0005;  ///< what the spot's shape leaves open of its centre
+constexpr double kModelSigmaPx = 0.0002;  ///< what the spot's shape leaves open of its centre
 constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
@@ -207,16 +207,20 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
   // Shot noise makes bright frames noisier: half of the light counts like the peak.
   const float shot = 0.5f * track.shape().shot;
   const auto estimate = [&](const auto& light) {
-    weights_ = light * (1 + shot) / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
-    const double information = (weights_ * light).sum();
-    return Estimate{Eigen::Vector2d((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information,
-                    shift_variance / information};
+    weights_ = light / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
+    const float information = (weights_ * light).sum();
+    const Eigen::Vector2f offset = Eigen::Vector2f((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information;
+    // From the residuals themselves, each frame with its own noise (White's estimator).
+    const float square = (weights_.square() * ((track.shift_u() - offset.x() * light).square() +
+                                               (track.shift_v() - offset.y() * light).square())).sum();
+    const auto frames = static_cast<float>(weights_.size());
+    return Estimate{offset.cast<double>(), 0.5 * square / (information * information) * frames / (frames - 1)};
   };
   // All light says most. What else shines beside the blob, steadily, pulls it; the code's part alone is not pulled.
   const bool bright = reading.mean * reading.mean > 36 * shift_variance;
   Estimate best = bright ? estimate(track.flux()) : estimate((reading.mean + wave_).max(0.0f));
   const Estimate coded = estimate(wave_);
-  constexpr double kPulledPx = 0.005, kPulledSigmas2 = 14;
+  constexpr double kPulledPx = 0.005, kPulledSigmas2 = 40;
   if ((coded.offset - best.offset).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * coded.variance) best = coded;
   track.path().correct(track.anchor() + best.offset, best.variance);
 }

@@ -28,11 +28,17 @@ class BlobTracker {
   void drop_last() { --count_; }
   void clear() { count_ = 0; }
 
-  /// Whether a blob is followed there.
+  /// Whether a blob is followed there that is at rest, or has been read.
   bool covers(const Eigen::Vector2d& pixel) const;
+  /// Whether a blob is followed there of which nothing is known yet.
+  bool suspects(const Eigen::Vector2d& pixel) const;
+  /// The track that was started last explains what the suspects around it are.
+  void drop_suspects_of_last();
 
   BlobTrack* begin() { return tracks_.data(); }
   BlobTrack* end() { return tracks_.data() + count_; }
+  const BlobTrack* begin() const { return tracks_.data(); }
+  const BlobTrack* end() const { return tracks_.data() + count_; }
   std::size_t size() const { return count_; }
 
  private:
@@ -42,6 +48,9 @@ class BlobTracker {
   void begin_new(const FrameWindow& window, const Changes& risen, const PixelNoise& noise);
   void look_back(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion, const PixelNoise& noise) const;
   void drop_twins();
+  /// Drops the others; the order, that of age, stays.
+  template <class Keep>
+  void keep_if(Keep&& keep);
 
   int window_frames_;
   std::vector<BlobTrack> tracks_;

@@ -117,7 +117,7 @@ std::vector<Planted> plant(test::BlobScene& scene) {
 // may fall on either side, since the two need not weigh a blob's pixels alike.
 TEST(DetectorAgainstDenseGoertzel, IsTheSameWithinTheStatedRates) {
   constexpr int kScenes = 120;
-  int clear = 0, missed = 0, dim = 0, extra = 0, miscoded = 0;
+  int clear = 0, missed = 0, extra = 0, miscoded = 0;
   for (int seed = 0; seed < kScenes; ++seed) {
     test::BlobScene scene(static_cast<unsigned>(seed));
     scene.noise = 1.5;
@@ -144,7 +144,6 @@ TEST(DetectorAgainstDenseGoertzel, IsTheSameWithinTheStatedRates) {
       if (sighting) {
         explained[static_cast<std::size_t>(sighting - seen.data())] = true;
         miscoded += sighting->tones != beacon.code;
-        dim += best < 0.6 * threshold;  // no pixel near it comes near the threshold
       }
       // sqrt of a noncentral chi-square has a sigma of about one.
       if (std::sqrt(best) < std::sqrt(threshold) + 1) continue;
@@ -159,7 +158,6 @@ TEST(DetectorAgainstDenseGoertzel, IsTheSameWithinTheStatedRates) {
   EXPECT_LE(missed, clear / 100);
   EXPECT_EQ(extra, 0) << "sightings where there is no beacon";
   EXPECT_EQ(miscoded, 0);
-  EXPECT_EQ(dim, 0) << "sightings of what no pixel shows";
 }
 
 }  // namespace
