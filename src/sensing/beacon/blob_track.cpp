@@ -14,7 +14,7 @@ constexpr double kUncertainPx2 = 0.1;  ///< a prediction worse than this is help
 constexpr double kMinGatePx = 1.0, kMaxGatePx = 3.5;
 constexpr float kWidthStep = 0.01f;  ///< of the spot's width; less is not worth reading the window anew
 constexpr float kMovingWidthStep = 0.05f;
-constexpr float kMaxClippedPx = 4;   ///< what clips farther out leaves too little of the patch
+constexpr float kMaxClippedPx = 4.8f;  ///< what clips farther out leaves too little of the patch
 constexpr float kMinSigmaPx = 0.4f, kMaxSigmaPx = 2.5f;
 
 Eigen::Vector2i nearest(const Eigen::Vector2d& place) { return place.array().round().matrix().cast<int>(); }

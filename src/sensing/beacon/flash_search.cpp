@@ -14,6 +14,29 @@ float cell_sum(const Image& image, const Eigen::Vector2i& pixel) {
          static_cast<float>(lower[1]);
 }
 
+/// Centre of what clips around `pixel` in any frame: the light of a saturated spot changes on its rim only.
+std::optional<Eigen::Vector2d> clipped_core(const FrameWindow& window, const Eigen::Vector2i& pixel,
+                                            float white_level) {
+  std::optional<Eigen::Vector2d> core;
+  Eigen::Vector2i middle = pixel;
+  for (int step = 0; step < 2; ++step) {
+    Patch frame;
+    Patch::Array clipped = Patch::Array::Zero();
+    for (int slot = 0; slot < window.capacity(); ++slot) {
+      if (!frame.read(window.at(slot), middle)) return std::nullopt;
+      clipped += (frame.values >= white_level).cast<float>();
+    }
+    if (clipped.maxCoeff() == 0) return core;
+    Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+    for (int i = 0; i < Patch::kPixels; ++i)
+      moment += static_cast<double>(clipped[i]) *
+                Eigen::Vector2d(i % Patch::kSide - Patch::kHalf, i / Patch::kSide - Patch::kHalf);
+    core = middle.cast<double>() + moment / static_cast<double>(clipped.sum());
+    middle = core->array().round().matrix().cast<int>();
+  }
+  return core;
+}
+
 }  // namespace
 
 FlashSearch::FlashSearch(int slots) : light_(slots), wave_(slots) {}
@@ -38,6 +61,9 @@ std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, c
     }
   }
   if (strongest < kCellShare * power_threshold * kCellPixels * noise.dark_variance) return std::nullopt;
+
+  constexpr double kCoreVariance = 0.25;
+  if (const auto core = clipped_core(window, pixel, noise.white_level)) return Flash{*core, kCoreVariance};
 
   // The tone's amplitude in each pixel, along the cell's phase: an image of this light alone.
   wave_.noalias() = bank.basis().middleRows(2 * tone, 2).transpose() * powers_.segment<2>(2 * tone);
