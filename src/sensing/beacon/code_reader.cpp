@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelSigmaPx = 0.0002;  ///< what the spot's shape leaves open of its centre
+constexpr double kModelSigmaPx = 0.0003;  ///< what the spot's shape leaves open of its centre
 constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
