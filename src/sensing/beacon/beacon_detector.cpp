@@ -139,7 +139,7 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
 
 bool BeaconDetector::read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise) {
   // Width, clipping and noise decide how the light is read, and the light decides on them: some rounds.
-  constexpr int kRounds = 6;
+  constexpr int kRounds = 8;
   constexpr double kAimedPx = 0.005;
   for (int round = 0; round < kRounds; ++round) {
     if (!track.read_window(window_, window_.size(), noise)) return false;
@@ -157,9 +157,8 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
     return *reason;
   }
   if (breaks_window(image)) reset();
-  window_.push(image, window_.size() == 0
-                          ? RigidTransform(RigidTransform::Identity())
-                          : camera_motion.T_then_now(window_.at(window_.newest()).stamp, image.stamp));
+  window_.push(image, window_.size() == 0 ? RigidTransform(RigidTransform::Identity())
+                                          : camera_motion.T_then_now(window_.at(window_.newest()).stamp, image.stamp));
   bank_.set(window_.newest(), image.stamp);
   choose_lags();
   scan_.push(image);

@@ -6,9 +6,9 @@
 namespace lodestar {
 namespace {
 
-constexpr double kAimPx = 0.02;        ///< a filter serves places this near to its own
-constexpr float kSeenSigmas = 3.0f;    ///< light of one frame that places the blob
-constexpr float kSureSigmas = 8.0f;    ///< ... and that may pull it farther than one step
+constexpr double kAimPx = 0.02;      ///< a filter serves places this near to its own
+constexpr float kSeenSigmas = 3.0f;  ///< light of one frame that places the blob
+constexpr float kSureSigmas = 8.0f;  ///< ... and that may pull it farther than one step
 constexpr double kPullPx = 0.3;
 constexpr double kUncertainPx2 = 0.1;  ///< a prediction worse than this is helped by the spot's centroid
 constexpr double kMinGatePx = 1.0, kMaxGatePx = 3.5;
@@ -46,9 +46,7 @@ void BlobTrack::restart(const PathFilter& path) {
   frames_ = age_ = hits_ = unseen_ = 0;
 }
 
-double BlobTrack::gate_px() const {
-  return std::clamp(4.0 * std::sqrt(path_.variance()), kMinGatePx, kMaxGatePx);
-}
+double BlobTrack::gate_px() const { return std::clamp(4.0 * std::sqrt(path_.variance()), kMinGatePx, kMaxGatePx); }
 
 void BlobTrack::hide() {
   hidden = true;
@@ -161,7 +159,7 @@ bool BlobTrack::follow_width(double dark_variance) {
   const double variance = std::max(dark_variance, pixel_variance_) * filter_.widening_variance();
   if (square < 100 * variance || wider * wider * square < 9 * variance) return false;
   if (std::abs(wider) < (path_.still() ? kWidthStep : kMovingWidthStep) * shape_.sigma_px) return false;
-  const float reach = 0.3f * shape_.sigma_px, before = shape_.sigma_px;
+  const float reach = 0.5f * shape_.sigma_px, before = shape_.sigma_px;
   shape_.sigma_px = std::clamp(before + std::clamp(wider, -reach, reach), kMinSigmaPx, kMaxSigmaPx);
   widening_ -= flux_ * (shape_.sigma_px - before);  // as seen from the new width
   return shape_.sigma_px != before;

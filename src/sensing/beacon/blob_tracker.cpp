@@ -6,17 +6,17 @@
 namespace lodestar {
 namespace {
 
-constexpr double kCoverPx = 5;         ///< a change this near to a blob is its own
+constexpr double kCoverPx = 5;  ///< a change this near to a blob is its own
 constexpr double kTwinPx = 2;
-constexpr int kYoungHits = 4;          ///< until then a blob is looked for among all changes
+constexpr int kYoungHits = 4;  ///< until then a blob is looked for among all changes
 constexpr double kMaxYoungGatePx = 20;
-constexpr double kFirstSigmaPx = 0.7;  ///< of a cell's centre
-constexpr double kFirstSpeedPxS = 500; ///< one sigma, beside the prediction
-constexpr int kLookBackFrames = 8;     ///< at a time; each 4 hits the velocity is known better
+constexpr double kFirstSigmaPx = 0.7;   ///< of a cell's centre
+constexpr double kFirstSpeedPxS = 500;  ///< one sigma, beside the prediction
+constexpr int kLookBackFrames = 8;      ///< at a time; each 4 hits the velocity is known better
 constexpr int kLookBackHits = 16;
 constexpr int kUnreadPatience = 3;
-constexpr float kBirthSigmas = 12;     ///< of one frame's light; fainter blobs show at rest, by their energy
-constexpr int kHiddenWindows = 5;      ///< how long a hidden beacon is waited for
+constexpr float kBirthSigmas = 12;  ///< of one frame's light; fainter blobs show at rest, by their energy
+constexpr int kHiddenWindows = 5;   ///< how long a hidden beacon is waited for
 
 /// A change's place: the middle of its cell, which is its upper left pixel's lower right corner.
 Eigen::Vector2d middle(const ChangeScan::Change& change) {

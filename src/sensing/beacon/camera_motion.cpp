@@ -58,8 +58,8 @@ RigidTransform CameraMotion::T_then_now(Stamp then, Stamp now) const {
   const auto steps = std::max<std::int64_t>(1, std::llround(std::ceil(seconds(now - then) / kMaxStep_s)));
   RigidTransform T_then_base_now = RigidTransform::Identity();
   for (std::int64_t i = 0; i < steps; ++i) {
-    T_then_base_now = T_then_base_now * T_base_before_base_after(then + (now - then) * i / steps,
-                                                                 then + (now - then) * (i + 1) / steps);
+    T_then_base_now = T_then_base_now *
+                      T_base_before_base_after(then + (now - then) * i / steps, then + (now - then) * (i + 1) / steps);
   }
   return T_base_camera_.inverse() * T_then_base_now * T_base_camera_;
 }

@@ -16,12 +16,13 @@ void plain(const ChangeRow<Pixel, Lane>& row, const ChangeUnits& units) {
     for (int i = segment * kSegment; i < (segment + 1) * kSegment; ++i) {
       const std::int32_t sum = row.upper[2 * i] + row.upper[2 * i + 1] + row.lower[2 * i] + row.lower[2 * i + 1];
       const std::int32_t difference = std::clamp(sum - row.before[i], -units.reach, units.reach);
+      row.cells[i] = static_cast<Lane>(sum);
+      risen = std::max(risen, difference);
+      if (!row.energy) continue;
       const std::int32_t scaled = (difference * units.multiplier) >> ChangeUnits::kShift;
       const std::int32_t energy = row.energy[i] - (row.energy[i] >> units.forget_bits) + scaled * scaled;
-      row.cells[i] = static_cast<Lane>(sum);
       row.energy[i] = static_cast<Lane>(energy);
       highest = std::max(highest, energy);
-      risen = std::max(risen, difference);
     }
     row.flags[segment] = static_cast<std::uint8_t>((highest > row.limit[segment] ? kFlagRestless : 0) |
                                                    (risen > units.risen ? kFlagRisen : 0));

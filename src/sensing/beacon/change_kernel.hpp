@@ -14,7 +14,7 @@ struct ChangeRow {
   const Pixel *upper, *lower;  ///< 2 * kSegment pixels a segment
   const Lane* before;          ///< the row's cells, `lag` frames ago
   Lane* cells;                 ///< out: sums of 2 x 2 pixels
-  Lane* energy;                ///< in and out
+  Lane* energy;                ///< in and out; null: not this row's turn
   const Lane* limit;           ///< of the energy, one a segment
   std::uint8_t* flags;         ///< out, one a segment: ChangeFlag
   int segments;

@@ -9,13 +9,14 @@
 namespace lodestar {
 namespace {
 
-constexpr int kTileRows = 16;              ///< a tile is one segment wide and 16 cells high
-constexpr double kReachSigmas = 8;         ///< a difference is clipped here
+constexpr int kTileRows = 16;       ///< a tile is one segment wide and 16 cells high
+constexpr int kBands = 2;           ///< a row's energy is renewed in each second frame
+constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
-constexpr float kFirstLimit = 3.5f;        ///< sigmas of a cell's energy
-constexpr float kLeastLimit = 2.5f;
-constexpr float kLimitStep = 0.25f;        ///< what one settled cell without a find adds
-constexpr int kNoiseSample = 256;          ///< cells a frame
+constexpr float kFirstLimit = 3.0f;  ///< sigmas of a cell's energy
+constexpr float kLeastLimit = 2.0f;
+constexpr float kLimitStep = 0.25f;  ///< what one settled cell without a find adds
+constexpr int kNoiseSample = 256;    ///< cells a frame
 constexpr double kNoiseForgets = 1.0 / 16;
 constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
 
@@ -39,7 +40,7 @@ double clipped_mean(int count, double variance, Next&& next_square) {
 }  // namespace
 
 ChangeScan::ChangeScan(int window_frames)
-    : forget_bits_(std::clamp(static_cast<int>(std::lround(std::log2(0.5 * window_frames))), 1, 6)),
+    : forget_bits_(std::clamp(static_cast<int>(std::lround(std::log2(0.5 * window_frames / kBands))), 1, 6)),
       // The energy of a 16-bit lane that is always clipped: clip^2 2^bits, below 2^15.
       clip_(static_cast<int>(std::sqrt(32767.0 / (1 << forget_bits_)))) {
   const double unit = clip_ / kReachSigmas;  // what one sigma of a difference is scaled to
@@ -50,9 +51,9 @@ ChangeScan::ChangeScan(int window_frames)
   energy_sigma_ = static_cast<float>(unit * unit * std::sqrt(3.0 / (1 - keep * keep)));
 }
 
-void ChangeScan::set_lags(int even, int odd) {
-  lags_[0] = even;
-  lags_[1] = odd;
+void ChangeScan::set_lags(int first, int second) {
+  lags_[0] = first;
+  lags_[1] = second;
 }
 
 void ChangeScan::clear() { frames_ = 0; }
@@ -78,11 +79,12 @@ void ChangeScan::start(const Image& image, Planes<Lane>& planes) {
   rows_ = image.height_px / 2;
   bits_ = image.bits;
   segments_ = (columns_ + kSegment - 1) / kSegment;
-  budget_ = 6 + columns_ * rows_ / 16384;
+  budget_ = 2 + columns_ * rows_ / 16384;
   const auto cells = static_cast<std::size_t>(segments_ * kSegment) * static_cast<std::size_t>(rows_);
   for (auto& plane : planes.cells) plane.assign(cells, 0);
   planes.energy.assign(cells, 0);
-  const auto tiles = static_cast<std::size_t>(segments_) * static_cast<std::size_t>((rows_ + kTileRows - 1) / kTileRows);
+  const auto tiles =
+      static_cast<std::size_t>(segments_) * static_cast<std::size_t>((rows_ + kTileRows - 1) / kTileRows);
   planes.limit.assign(tiles, 0);
   tile_limit_.assign(tiles, kFirstLimit);
   flags_.assign(static_cast<std::size_t>(segments_ * rows_), 0);
@@ -103,7 +105,7 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
     start(image, planes);
   risen_.clear();
   restless_.clear();
-  const auto lag = std::min(frames_, static_cast<std::uint64_t>(lags_[frames_ % 2]));
+  const auto lag = std::min(frames_, static_cast<std::uint64_t>(lags_[frames_ / kBands % 2]));
   auto& now = planes.cells[frames_ % (kMaxLag + 1)];
   const auto& before = planes.cells[(frames_ + kMaxLag + 1 - lag) % (kMaxLag + 1)];
 
@@ -125,14 +127,15 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
   const int whole = image.width_px / (2 * kSegment);
   for (int row = 0; row < rows_; ++row) {
     const auto first = static_cast<std::size_t>(row * segments_) * kSegment;
-    ChangeRow<Pixel, Lane> in{image.row<Pixel>(2 * row),
-                              image.row<Pixel>(2 * row + 1),
-                              before.data() + first,
-                              now.data() + first,
-                              planes.energy.data() + first,
-                              planes.limit.data() + tile(0, row),
-                              flags_.data() + row * segments_,
-                              whole};
+    ChangeRow<Pixel, Lane> in{
+        image.row<Pixel>(2 * row),
+        image.row<Pixel>(2 * row + 1),
+        before.data() + first,
+        now.data() + first,
+        static_cast<std::uint64_t>(row) % kBands == frames_ % kBands ? planes.energy.data() + first : nullptr,
+        planes.limit.data() + tile(0, row),
+        flags_.data() + row * segments_,
+        whole};
     kernel(in, units);
     if (whole == segments_) continue;
     // What is left of the row, filled up with its last pixel.
@@ -143,7 +146,8 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
       lower[i] = in.lower[u];
     }
     const int offset = whole * kSegment;
-    kernel({upper, lower, in.before + offset, in.cells + offset, in.energy + offset, in.limit + whole, in.flags + whole, 1},
+    kernel({upper, lower, in.before + offset, in.cells + offset, in.energy ? in.energy + offset : nullptr,
+            in.limit + whole, in.flags + whole, 1},
            units);
   }
   ++frames_;
@@ -156,7 +160,7 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
 }
 
 template <class Lane>
-void ChangeScan::measure_noise(const Planes<Lane>&, const std::vector<Lane>& now, const std::vector<Lane>& before) {
+void ChangeScan::measure_noise(const Planes<Lane>&, const Plane<Lane>& now, const Plane<Lane>& before) {
   const auto cells = static_cast<std::size_t>(columns_ * rows_);
   const auto next_square = [&] {
     constexpr std::size_t kStride = 7919;  // a prime: all over the image
@@ -174,13 +178,12 @@ void ChangeScan::measure_noise(const Planes<Lane>&, const std::vector<Lane>& now
   // From above: lights that change are few, and clipping closes in on what the rest does.
   cell_variance_ = clipped_mean(16 * kNoiseSample, 1e12, next_square);
   for (int i = 0; i < 20; ++i) {
-    cell_variance_ =
-        std::max(kLeastCellVariance, clipped_mean(16 * kNoiseSample, cell_variance_, next_square));
+    cell_variance_ = std::max(kLeastCellVariance, clipped_mean(16 * kNoiseSample, cell_variance_, next_square));
   }
 }
 
 template <class Lane>
-void ChangeScan::collect(const Planes<Lane>& planes, const std::vector<Lane>& now, const std::vector<Lane>& before) {
+void ChangeScan::collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before) {
   const int stride = segments_ * kSegment;
   const auto difference = [&](std::ptrdiff_t i) { return static_cast<int>(now.data()[i]) - before.data()[i]; };
   const auto energy = [&](std::ptrdiff_t i) { return static_cast<int>(planes.energy.data()[i]); };

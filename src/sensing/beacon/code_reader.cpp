@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelSigmaPx = 0.0003;  ///< what the spot's shape leaves open of its centre
+constexpr double kModelShare = 0.0003;  ///< of its width: what the spot's shape leaves open of its centre
 constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
@@ -209,10 +209,12 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
   const auto estimate = [&](const auto& light) {
     weights_ = light / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
     const float information = (weights_ * light).sum();
-    const Eigen::Vector2f offset = Eigen::Vector2f((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information;
+    const Eigen::Vector2f offset =
+        Eigen::Vector2f((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information;
     // From the residuals themselves, each frame with its own noise (White's estimator).
     const float square = (weights_.square() * ((track.shift_u() - offset.x() * light).square() +
-                                               (track.shift_v() - offset.y() * light).square())).sum();
+                                               (track.shift_v() - offset.y() * light).square()))
+                             .sum();
     const auto frames = static_cast<float>(weights_.size());
     return Estimate{offset.cast<double>(), 0.5 * square / (information * information) * frames / (frames - 1)};
   };
@@ -221,7 +223,8 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
   Estimate best = bright ? estimate(track.flux()) : estimate((reading.mean + wave_).max(0.0f));
   const Estimate coded = estimate(wave_);
   constexpr double kPulledPx = 0.005, kPulledSigmas2 = 40;
-  if ((coded.offset - best.offset).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * coded.variance) best = coded;
+  if ((coded.offset - best.offset).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * coded.variance)
+    best = coded;
   track.path().correct(track.anchor() + best.offset, best.variance);
 }
 
@@ -248,7 +251,8 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
 
   Sighting sighting;
   sighting.pixel = track.path().pixel();
-  sighting.covariance = Eigen::Matrix2d::Identity() * (track.path().variance() + kModelSigmaPx * kModelSigmaPx);
+  const double model_sigma_px = kModelShare * static_cast<double>(track.shape().sigma_px);
+  sighting.covariance = Eigen::Matrix2d::Identity() * (track.path().variance() + model_sigma_px * model_sigma_px);
   sighting.tones = reading.code;
   sighting.snr_db = 10.0 * std::log10(reading.weakest_over_noise / 2.0);
   sighting.saturated = track.saturated();

@@ -44,7 +44,7 @@ FlashSearch::FlashSearch(int slots) : light_(slots), wave_(slots) {}
 std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, const ToneBank& bank,
                                                     const Eigen::Vector2i& pixel, double power_threshold,
                                                     const PixelNoise& noise) {
-  constexpr double kCellShare = 0.25;
+  constexpr double kCellShare = 0.25, kSpotShare = 0.5;
   constexpr int kCellPixels = 4;
   for (int slot = 0; slot < window.capacity(); ++slot) {
     const Image& image = window.at(slot);
@@ -91,7 +91,9 @@ std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, c
     }
     filter.design(place - middle.cast<double>(), SpotShape());
     const SpotLight light = filter.read(amplitude);
-    if (light.flux <= 0) return std::nullopt;
+    if (light.flux <= 0 ||
+        light.flux * light.flux < kSpotShare * power_threshold * noise.dark_variance * filter.flux_variance())
+      return std::nullopt;
     const Eigen::Vector2d shift = (light.shift / light.flux).cast<double>();
     place += shift * std::min(1.0, 0.7 / std::max(1e-9, shift.norm()));
     if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;

@@ -6,9 +6,9 @@
 namespace lodestar {
 namespace {
 
-constexpr double kStillStepPx = 0.05;       ///< a predicted step longer than this is motion
-constexpr double kSurpriseSigmas = 4.0;     ///< twice in a row and in one direction: a standing blob has begun to move
-constexpr double kModelSigmaPx = 0.02;      ///< what the spot's shape leaves open
+constexpr double kStillStepPx = 0.05;    ///< a predicted step longer than this is motion
+constexpr double kSurpriseSigmas = 4.0;  ///< twice in a row and in one direction: a standing blob has begun to move
+constexpr double kModelSigmaPx = 0.02;   ///< what the spot's shape leaves open
 constexpr double kBlurShare = 0.015, kMaxBlurSigmaPx = 0.2;  ///< ... and of a blur, by the way from frame to frame
 constexpr double kMinJerk = 1e2, kMaxJerk = 1e9;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <boost/align/aligned_allocator.hpp>
 #include <cstdint>
 #include <vector>
 
@@ -11,17 +12,18 @@ namespace lodestar {
 /// The one pass over all bytes of a frame: where does the image change?
 ///
 /// Light is summed over cells of 2 x 2 pixels. A cell's difference d to the frame `lag` before, in units of its noise,
-/// is clipped, squared and summed with forgetting: E += d^2 - E / 2^k. Dark ceiling, steady lamps and sun leave noise;
-/// anything that flashes or moves does not. All numbers are integers, so every instruction set gives the same result.
+/// is clipped, squared and summed with forgetting: E += d^2 - E / 2^k, for half of the rows in turn. Dark ceiling,
+/// steady lamps and sun leave noise; anything that flashes or moves does not. All numbers are integers, so every
+/// instruction set gives the same result.
 class ChangeScan {
  public:
-  static constexpr int kMaxLag = 4;
+  static constexpr int kMaxLag = 3;
 
   /// @param window_frames N; the memory of the energy is about N / 2 frames
   explicit ChangeScan(int window_frames);
 
-  /// Lags of even and odd frames, 1 to kMaxLag: a tone that one of them does not show (f lag / fs whole) the other does.
-  void set_lags(int even, int odd);
+  /// Lags that take turns, 1 to kMaxLag: a tone that one of them does not show (f lag / fs whole) the other does.
+  void set_lags(int first, int second);
 
   void push(const Image& image);
   void clear();
@@ -52,12 +54,16 @@ class ChangeScan {
   std::size_t bytes() const;
 
  private:
+  /// Rows begin where cache lines do.
+  template <class Lane>
+  using Plane = std::vector<Lane, boost::alignment::aligned_allocator<Lane, 64>>;
+
   /// Lane: the integer in which a cell's sum and energy are kept.
   template <class Lane>
   struct Planes {
-    std::vector<Lane> cells[kMaxLag + 1];
-    std::vector<Lane> energy;
-    std::vector<Lane> limit;  ///< one a tile
+    Plane<Lane> cells[kMaxLag + 1];
+    Plane<Lane> energy;
+    Plane<Lane> limit;  ///< one a tile
   };
 
   template <class Pixel, class Lane>
@@ -65,9 +71,9 @@ class ChangeScan {
   template <class Lane>
   void start(const Image& image, Planes<Lane>& planes);
   template <class Lane>
-  void measure_noise(const Planes<Lane>& planes, const std::vector<Lane>& now, const std::vector<Lane>& before);
+  void measure_noise(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
   template <class Lane>
-  void collect(const Planes<Lane>& planes, const std::vector<Lane>& now, const std::vector<Lane>& before);
+  void collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
   template <class Lane>
   void settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found);
   std::size_t tile(int column, int row) const;

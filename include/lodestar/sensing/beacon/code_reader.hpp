@@ -50,8 +50,7 @@ class CodeReader {
   };
   Fit fit_code(const ToneBank& bank, float noise_power);
   Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
-  Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
-                                   double dark_variance);
+  Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
   void refine_centre(BlobTrack& track, const Reading& reading);
 

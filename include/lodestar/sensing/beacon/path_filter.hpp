@@ -42,7 +42,7 @@ class PathFilter {
   Eigen::Matrix3d P_ = Eigen::Matrix3d::Zero();
   double jerk_density_ = 1e5;  ///< px^2 / s^5
   double interval_s_ = 0;
-  double travel_px_ = 0;  ///< since the frame before, as predicted
+  double travel_px_ = 0;                                     ///< since the frame before, as predicted
   Eigen::Vector2d last_surprise_ = Eigen::Vector2d::Zero();  ///< innovation of the frame before, if it was one
   Eigen::Vector2d quiet_pixel_ = Eigen::Vector2d::Zero();    ///< a moving blob has kept near it for near_frames_
   int quiet_frames_ = 0, near_frames_ = 0;

@@ -34,9 +34,9 @@ struct SpotShape {
 
 /// What a spot's filters read from a patch.
 struct SpotLight {
-  float flux = 0;                                        ///< all light of the spot, grey levels, background removed
-  Eigen::Vector2f shift = Eigen::Vector2f::Zero();       ///< flux times distance from the filter's place, grey levels px
-  float widening = 0;                                    ///< flux times what sigma is larger, grey levels px
+  float flux = 0;                                   ///< all light of the spot, grey levels, background removed
+  Eigen::Vector2f shift = Eigen::Vector2f::Zero();  ///< flux times distance from the filter's place, grey levels px
+  float widening = 0;                               ///< flux times what sigma is larger, grey levels px
 };
 
 /// Least squares for the light of one spot at a place that is nearly right (Gauss-Newton, one step): filters for flux,
