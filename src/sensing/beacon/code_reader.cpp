@@ -10,7 +10,8 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelShare = 0.0003;  ///< of its width: what the spot's shape leaves open of its centre
+constexpr double kModelShare = 0.0003;     ///< of its width: what the spot's shape leaves open of its centre
+constexpr double kMaxCentreSigmaPx = 0.5;  ///< a blob that is not known better has no place to report
 constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
@@ -211,12 +212,12 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
     const float information = (weights_ * light).sum();
     const Eigen::Vector2f offset =
         Eigen::Vector2f((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information;
-    // From the residuals themselves, each frame with its own noise (White's estimator).
+    // From the residuals themselves, each frame with its own noise (White, with the jackknife's correction).
     const float square = (weights_.square() * ((track.shift_u() - offset.x() * light).square() +
                                                (track.shift_v() - offset.y() * light).square()))
                              .sum();
     const auto frames = static_cast<float>(weights_.size());
-    return Estimate{offset.cast<double>(), 0.5 * square / (information * information) * frames / (frames - 1)};
+    return Estimate{offset.cast<double>(), 0.5 * square / (information * information) * frames / (frames - 2)};
   };
   // All light says most. What else shines beside the blob, steadily, pulls it; the code's part alone is not pulled.
   const bool bright = reading.mean * reading.mean > 36 * shift_variance;
@@ -248,6 +249,7 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
     if (track.path().still()) refine_centre(track, reading);
   }
   track.confirm();
+  if (track.path().variance() > kMaxCentreSigmaPx * kMaxCentreSigmaPx) return std::nullopt;
 
   Sighting sighting;
   sighting.pixel = track.path().pixel();

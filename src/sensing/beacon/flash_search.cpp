@@ -7,11 +7,16 @@
 namespace lodestar {
 namespace {
 
+/// Light of the 4 x 4 pixels around a cell: most of a spot's, wherever in the cell or on its corner it is.
+constexpr int kBlockSide = 4, kBlockPixels = kBlockSide * kBlockSide;
 template <class Pixel>
-float cell_sum(const Image& image, const Eigen::Vector2i& pixel) {
-  const Pixel *upper = image.row<Pixel>(pixel.y()) + pixel.x(), *lower = image.row<Pixel>(pixel.y() + 1) + pixel.x();
-  return static_cast<float>(upper[0]) + static_cast<float>(upper[1]) + static_cast<float>(lower[0]) +
-         static_cast<float>(lower[1]);
+float block_sum(const Image& image, const Eigen::Vector2i& pixel) {
+  int sum = 0;
+  for (int v = 0; v < kBlockSide; ++v) {
+    const Pixel* row = image.row<Pixel>(pixel.y() - 1 + v) + pixel.x() - 1;
+    for (int u = 0; u < kBlockSide; ++u) sum += row[u];
+  }
+  return static_cast<float>(sum);
 }
 
 /// Centre of what clips around `pixel` in any frame: the light of a saturated spot changes on its rim only.
@@ -44,11 +49,10 @@ FlashSearch::FlashSearch(int slots) : light_(slots), wave_(slots) {}
 std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, const ToneBank& bank,
                                                     const Eigen::Vector2i& pixel, double power_threshold,
                                                     const PixelNoise& noise) {
-  constexpr double kCellShare = 0.25, kSpotShare = 0.5;
-  constexpr int kCellPixels = 4;
+  constexpr double kBlockShare = 0.4, kSpotShare = 0.6;
   for (int slot = 0; slot < window.capacity(); ++slot) {
     const Image& image = window.at(slot);
-    light_[slot] = image.bits == 8 ? cell_sum<std::uint8_t>(image, pixel) : cell_sum<std::uint16_t>(image, pixel);
+    light_[slot] = image.bits == 8 ? block_sum<std::uint8_t>(image, pixel) : block_sum<std::uint16_t>(image, pixel);
   }
   powers_.noalias() = bank.basis() * light_;
   Eigen::Index tone = 0;
@@ -60,7 +64,7 @@ std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, c
       tone = k;
     }
   }
-  if (strongest < kCellShare * power_threshold * kCellPixels * noise.dark_variance) return std::nullopt;
+  if (strongest < kBlockShare * power_threshold * kBlockPixels * noise.dark_variance) return std::nullopt;
 
   constexpr double kCoreVariance = 0.25;
   if (const auto core = clipped_core(window, pixel, noise.white_level)) return Flash{*core, kCoreVariance};

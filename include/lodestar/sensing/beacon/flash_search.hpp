@@ -19,7 +19,7 @@ class FlashSearch {
     Eigen::Vector2d pixel;
     double variance;  ///< px^2, each axis
   };
-  /// @param power_threshold of a tone over the noise of one pixel; a cell as a whole must show a quarter of it
+  /// @param power_threshold of a tone over the noise of one pixel; the pixels around a cell must show a part of it
   /// @param pixel upper left one of the cell
   std::optional<Flash> find(const FrameWindow& window, const ToneBank& bank, const Eigen::Vector2i& pixel,
                             double power_threshold, const PixelNoise& noise);

@@ -74,7 +74,7 @@ TEST_P(ChangeScanBits, ShowsWhatFlashesAndForgetsWhatHasSettled) {
 
   scene.lights.clear();
   for (int i = 40; i < 80; ++i) scan.push(scene.render(i / 25.0));
-  for (const auto& change : scan.restless()) EXPECT_LT(change.size, 8);
+  for (const auto& change : scan.restless()) EXPECT_LT(change.size, 12);
 }
 
 TEST_P(ChangeScanBits, ShowsLightThatHasCome) {
