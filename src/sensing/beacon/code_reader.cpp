@@ -10,8 +10,8 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelShare = 0.0003;     ///< of its width: what the spot's shape leaves open of its centre
-constexpr double kMaxCentreSigmaPx = 0.5;  ///< a blob that is not known better has no place to report
+constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
+constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
