@@ -1,50 +1,51 @@
-// The cost of a frame's detection, beside a copy of that frame and beside the paper's way: a Goertzel recursion in
-// double precision for each pixel and tone, over the whole window, for each frame.
+// The cost of a frame's detection, beside a copy of that frame, beside the paper's way (a Goertzel recursion in double
+// precision for each pixel and tone, over the whole window, for each frame), beside OpenCV's dft over the window, and
+// beside AprilTag 3 on an image of the same size with eight tags.
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <map>
+#include <opencv2/core.hpp>
+#include <tuple>
 #include <vector>
 
-#include "lodestar/sensing/beacon/beacon_detector.hpp"
 #include "ratio_reporter.hpp"
-#include "support/blob_scene.hpp"
+#include "support/beacon/circle.hpp"
+
+#ifdef LODESTAR_HAS_APRILTAG
+extern "C" {
+#include <apriltag/apriltag.h>
+#include <apriltag/tag36h11.h>
+}
+#endif
 
 namespace lodestar {
 namespace {
 
-const std::vector<double> kTones_hz = {6, 8, 10, 12, 14, 16, 24, 26};
-constexpr int kWindow = 30, kBeacons = 12, kLamps = 8;
-constexpr double kRate_hz = 60;
+constexpr int kWindow = 30;
+constexpr double kSwing_px = 29;  ///< 3 px a frame
 
-/// One period of the tones' pattern (half a second), so that it can be played in a circle.
-std::vector<Image> frames(int width_px, int height_px) {
+std::vector<Image> frames(int width_px, int height_px, const test::Circle& circle) {
   test::BlobScene scene;
   scene.width_px = width_px;
   scene.height_px = height_px;
-  for (int i = 0; i < kBeacons + kLamps; ++i) {
-    const double u = width_px * (0.1 + 0.2 * (i % 5)) + 0.3, v = height_px * (0.15 + 0.2 * (i / 5)) + 0.6;
-    const double first = kTones_hz[static_cast<std::size_t>(i % 4)],
-                 second = kTones_hz[static_cast<std::size_t>(4 + i / 4 % 4)];
-    scene.lights.push_back({test::at(u, v), i < kBeacons ? test::tones(300, {first, second}) : test::steady(400)});
-  }
-  std::vector<Image> images;
-  for (int i = 0; i < kWindow; ++i) images.push_back(scene.render(i / kRate_hz));
-  return images;
+  return test::circle_of_frames(scene, circle);
 }
 
-const std::vector<Image>& frames_of(const benchmark::State& state) {
+/// The frames that all standing cases of a size share.
+const std::vector<Image>& standing_frames(const benchmark::State& state) {
   static std::map<std::pair<int, int>, std::vector<Image>> cache;
   const std::pair<int, int> size(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   auto& images = cache[size];
-  if (images.empty()) images = frames(size.first, size.second);
+  if (images.empty()) images = frames(size.first, size.second, {kWindow, 12, 8, 0});
   return images;
 }
 
 void memcpy_frame(benchmark::State& state) {
-  const auto& images = frames_of(state);
+  const auto& images = standing_frames(state);
   const std::size_t bytes = images[0].stride_bytes * static_cast<std::size_t>(images[0].height_px);
   std::vector<std::uint8_t> target(bytes);
   std::size_t i = 0;
@@ -54,39 +55,52 @@ void memcpy_frame(benchmark::State& state) {
   }
 }
 
-void beacon_detector(benchmark::State& state) {
-  const auto& images = frames_of(state);
-  CameraIntrinsics lens;
-  lens.width_px = images[0].width_px;
-  lens.height_px = images[0].height_px;
-  lens.fx_px = lens.fy_px = 0.36 * lens.width_px;
-  lens.cx_px = 0.5 * lens.width_px;
-  lens.cy_px = 0.5 * lens.height_px;
-  BeaconDetectorParams params;
-  params.tone_table_hz = kTones_hz;
-  params.window_frames = kWindow;
+/// Steady state: one result each frame.
+void detect_frames(benchmark::State& state, const std::vector<Image>& images, const BeaconDetectorParams& params) {
   BeaconDetector detector(params);
-  detector.set_camera(CameraModel::create(lens).value());
-  const CameraMotion standing;
-  int frame = 0;
+  detector.set_camera(
+      CameraModel::create(test::fisheye(images[0].width_px, images[0].height_px, 0.36 * images[0].width_px)).value());
+  const CameraMotion unknown;
+  std::size_t frame = 0;
   const auto next = [&] {
-    Image image = images[static_cast<std::size_t>(frame % kWindow)];
-    image.stamp = Stamp{} + std::chrono::seconds(1) + from_seconds(frame++ / kRate_hz);
-    return detector.process(image, standing);
+    Image image = images[frame % images.size()];
+    image.stamp = Stamp{} + std::chrono::seconds(1) + from_seconds(static_cast<double>(frame++) / test::kPlanRate_hz);
+    return test::process(detector, image, unknown)->sightings.size();
   };
-  for (int i = 0; i < kWindow; ++i) next();
-  std::size_t seen = 0;
-  for (auto _ : state) seen = next()->sightings.size();
-  state.counters["sightings"] = static_cast<double>(seen);
+  for (int i = 0; i < 3 * params.window_frames; ++i) next();
+  double seen = 0, count = 0;
+  for (auto _ : state) {
+    seen += static_cast<double>(next());
+    ++count;
+  }
+  state.counters["sightings"] = seen / count;
+}
+
+void beacon_detector(benchmark::State& state) {
+  detect_frames(state, standing_frames(state), test::plan_params(kWindow));
+}
+
+void beacon_detector_moving(benchmark::State& state) {
+  const auto images =
+      frames(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), {60, 12, 8, kSwing_px});
+  detect_frames(state, images, test::plan_params(kWindow));
+}
+
+/// The curve: N = 60, so that 28 tones 1 Hz apart are told apart.
+void beacon_detector_curve(benchmark::State& state) {
+  test::Circle circle{60, static_cast<int>(state.range(3)), 8, 0, {}};
+  for (int i = 0; i < state.range(2); ++i) circle.tones_hz.push_back(2 + i);
+  const auto images = frames(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), circle);
+  detect_frames(state, images, test::plan_params(60, circle.tones_hz));
 }
 
 void dense_goertzel(benchmark::State& state) {
-  const auto& images = frames_of(state);
+  const auto& images = standing_frames(state);
   const int width = images[0].width_px, height = images[0].height_px;
   std::vector<double> power(static_cast<std::size_t>(width * height));
   for (auto _ : state) {
-    for (const double tone_hz : kTones_hz) {
-      const double coefficient = 2 * std::cos(2 * kPi * tone_hz / kRate_hz);
+    for (const double tone_hz : test::kPlanTones_hz) {
+      const double coefficient = 2 * std::cos(2 * kPi * tone_hz / test::kPlanRate_hz);
       for (int v = 0; v < height; ++v) {
         for (int u = 0; u < width; ++u) {
           double s1 = 0, s2 = 0;
@@ -103,12 +117,94 @@ void dense_goertzel(benchmark::State& state) {
   }
 }
 
+/// Each pixel's series is a row; cv::dft transforms all rows of one image line at once, the tones' bins give the power.
+void opencv_dft(benchmark::State& state) {
+  const auto& images = standing_frames(state);
+  const int width = images[0].width_px, height = images[0].height_px;
+  cv::setNumThreads(1);
+  cv::Mat series(width, kWindow, CV_32F), spectra;
+  std::vector<float> power(static_cast<std::size_t>(width));
+  for (auto _ : state) {
+    for (int v = 0; v < height; ++v) {
+      for (int i = 0; i < kWindow; ++i) {
+        const auto* row = images[static_cast<std::size_t>(i)].row<std::uint8_t>(v);
+        for (int u = 0; u < width; ++u) series.ptr<float>(u)[i] = row[u];
+      }
+      cv::dft(series, spectra, cv::DFT_ROWS);
+      for (const double tone_hz : test::kPlanTones_hz) {
+        const int bin = static_cast<int>(std::lround(tone_hz * kWindow / test::kPlanRate_hz));
+        for (int u = 0; u < width; ++u) {
+          const float* spectrum = spectra.ptr<float>(u);
+          const float re = spectrum[2 * bin - 1], im = spectrum[2 * bin];
+          power[static_cast<std::size_t>(u)] = re * re + im * im;
+        }
+        benchmark::DoNotOptimize(power.data());
+      }
+    }
+  }
+}
+
+#ifdef LODESTAR_HAS_APRILTAG
+/// Eight tags on a grey wall, each a sixth of the image's height.
+std::vector<std::uint8_t> tag_image(apriltag_family_t* family, int width, int height) {
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width * height), 128);
+  test::Noise noise(1);
+  for (auto& pixel : pixels) pixel = test::Noise::grey<std::uint8_t>(128 + 2 * noise.normal(), 255);
+  for (int i = 0; i < 8; ++i) {
+    image_u8_t* tag = apriltag_to_image(family, static_cast<std::uint32_t>(i));
+    const int cell = std::max(3, height / 6 / tag->width);
+    const int u0 = width * (2 * (i % 4) + 1) / 8 - cell * tag->width / 2;
+    const int v0 = height * (2 * (i / 4) + 1) / 4 - cell * tag->height / 2;
+    for (int v = 0; v < cell * tag->height; ++v) {
+      for (int u = 0; u < cell * tag->width; ++u) {
+        const double grey = 30 + tag->buf[v / cell * tag->stride + u / cell] * 200 / 255.0 + 2 * noise.normal();
+        pixels[static_cast<std::size_t>((v0 + v) * width + u0 + u)] = test::Noise::grey<std::uint8_t>(grey, 255);
+      }
+    }
+    std::free(tag->buf);  // image_u8_destroy() is in another library on Debian
+    std::free(tag);
+  }
+  return pixels;
+}
+
+/// As the library comes: one thread, decimation by two, edges refined.
+void apriltag3(benchmark::State& state) {
+  const int width = static_cast<int>(state.range(0)), height = static_cast<int>(state.range(1));
+  apriltag_family_t* family = tag36h11_create();
+  apriltag_detector_t* detector = apriltag_detector_create();
+  apriltag_detector_add_family(detector, family);
+  auto pixels = tag_image(family, width, height);
+  image_u8_t image{width, height, width, pixels.data()};
+  int tags = 0;
+  for (auto _ : state) {
+    zarray_t* detections = apriltag_detector_detect(detector, &image);
+    tags = zarray_size(detections);
+    apriltag_detections_destroy(detections);
+  }
+  state.counters["tags"] = tags;
+  apriltag_detector_destroy(detector);
+  tag36h11_destroy(family);
+}
+#endif
+
 void sizes(benchmark::internal::Benchmark* bench) {
   bench->Args({640, 480})->Args({1280, 960})->Args({1920, 1080})->Unit(benchmark::kMillisecond);
 }
+void tones_and_beacons(benchmark::internal::Benchmark* bench) {
+  for (const int tones : {8, 16, 28}) {
+    for (const int beacons : {2, 12, 30, 60}) bench->Args({640, 480, tones, beacons});
+  }
+  bench->Unit(benchmark::kMillisecond);
+}
 BENCHMARK(memcpy_frame)->Apply(sizes);
 BENCHMARK(beacon_detector)->Apply(sizes);
+BENCHMARK(beacon_detector_moving)->Apply(sizes);
 BENCHMARK(dense_goertzel)->Apply(sizes)->MinTime(0.1);
+BENCHMARK(opencv_dft)->Apply(sizes)->MinTime(0.1);
+#ifdef LODESTAR_HAS_APRILTAG
+BENCHMARK(apriltag3)->Apply(sizes)->MinTime(0.1);
+#endif
+BENCHMARK(beacon_detector_curve)->Apply(tones_and_beacons)->MinTime(0.2);
 
 }  // namespace
 }  // namespace lodestar
@@ -116,5 +212,9 @@ BENCHMARK(dense_goertzel)->Apply(sizes)->MinTime(0.1);
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   lodestar::RatioReporter reporter("memcpy_frame");
+  reporter.at_most("beacon_detector", 6, "memcpy_frame");
+  reporter.at_most("beacon_detector_moving", 6, "memcpy_frame");
+  reporter.at_least("dense_goertzel", 100, "beacon_detector");
+  reporter.at_least("apriltag3", 20, "beacon_detector");
   benchmark::RunSpecifiedBenchmarks(&reporter);
 }

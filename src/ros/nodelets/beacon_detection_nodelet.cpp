@@ -70,7 +70,7 @@ void BeaconDetectionNodelet::tune(const BeaconDetectionConfig& config) {
 void BeaconDetectionNodelet::make_stage() {
   LineParams params = line_params(edge_->site(), edge_->vehicle(), *frame_rate_hz_);
   params.detector.false_alarms_per_hour = config_.false_alarms_per_hour;
-  params.detector.code.margin_db = config_.code_margin_db;
+  params.detector.reader.code.margin_db = config_.code_margin_db;
   heard_for_ = params.heard_for;
   stage_ = std::make_unique<DetectionStage>(params.detector, params.namer);
   camera_revision_ = 0;

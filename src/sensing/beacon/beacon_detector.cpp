@@ -2,61 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "lodestar/sensing/beacon/centre_fit.hpp"
+#include "lodestar/base/common/angle.hpp"
 
 namespace lodestar {
 namespace {
 
-using PatchArray = Eigen::Array<float, 1, Demodulation::kPixels>;
-
 constexpr double kMergePx = 3.0;       ///< two sightings closer than this are one
-constexpr double kStillImagePx = 0.3;  ///< the image stands still when its centre moves less within the window
-constexpr std::size_t kMaxSpots = 256;
-
-/// Mean over each pixel's 3 x 3 neighbourhood, valid pixels only.
-PatchArray pool(const PatchArray& values, const Eigen::Array<bool, 1, Demodulation::kPixels>& valid) {
-  PatchArray pooled;
-  for (int i = 0; i < Demodulation::kPixels; ++i) {
-    const Eigen::Vector2i centre = Demodulation::place(i);
-    float sum = 0;
-    int count = 0;
-    for (int y = std::max(0, centre.y() - 1); y <= std::min(Demodulation::kSide - 1, centre.y() + 1); ++y) {
-      for (int x = std::max(0, centre.x() - 1); x <= std::min(Demodulation::kSide - 1, centre.x() + 1); ++x) {
-        const int j = y * Demodulation::kSide + x;
-        if (!valid[j]) continue;
-        sum += values[j];
-        ++count;
-      }
-    }
-    pooled[i] = count > 0 ? sum / static_cast<float>(count) : 0.0f;
-  }
-  return pooled;
-}
-
-/// Each pixel's own noise: what its signal leaves beside the code's tones, never below the image's dark noise.
-PatchArray noise_of(const Demodulation& patch, ToneSet code, double dark_variance) {
-  PatchArray residual = patch.squares;
-  for (int tone : code.indices()) residual -= patch.power(tone);
-  const double dof = std::max(1, patch.frames - 1 - 2 * code.size());
-  return (pool(residual, patch.valid) / static_cast<float>(dof)).max(static_cast<float>(dark_variance));
-}
-
-/// Amplitude of the code's tones in each pixel, along the phases that the blob has as a whole: signed, so that noise
-/// has mean zero.
-PatchArray coherent_amplitude(const Demodulation& patch, ToneSet code,
-                              const Eigen::Array<bool, 1, Demodulation::kPixels>& lit) {
-  PatchArray amplitude = PatchArray::Zero();
-  for (int tone : code.indices()) {
-    const auto in_phase = patch.projections.row(2 * tone).array();
-    const auto quadrature = patch.projections.row(2 * tone + 1).array();
-    Eigen::Vector2f phasor(lit.select(in_phase, 0.0f).sum(), lit.select(quadrature, 0.0f).sum());
-    phasor.normalize();
-    amplitude += phasor.x() * in_phase + phasor.y() * quadrature;
-  }
-  return amplitude / std::sqrt(static_cast<float>(code.size()));
-}
+constexpr double kStillImagePx = 0.1;  ///< the image stands when its centre moves less from frame to frame
 
 }  // namespace
 
@@ -80,16 +33,27 @@ const char* name(FrameDrop reason) {
   return "";
 }
 
-BeaconDetector::BeaconDetector(const BeaconDetectorParams& params) : params_(params), window_(params.window_frames) {}
+BeaconDetector::BeaconDetector(const BeaconDetectorParams& params)
+    : params_(params),
+      window_(params.window_frames),
+      bank_(params.window_frames, params.tone_table_hz),
+      scan_(params.window_frames),
+      tracker_(params.window_frames, params.max_blobs),
+      search_(params.window_frames),
+      reader_(params.reader, params.window_frames) {}
 
 void BeaconDetector::set_camera(std::shared_ptr<const CameraModel> camera) {
   camera_ = std::move(camera);
+  motion_.camera = camera_.get();
   reset();
 }
 
 void BeaconDetector::reset() {
   window_.clear();
-  tracks_.clear();
+  scan_.clear();
+  tracker_.clear();
+  lags_for_s_ = 0;
+  searches_left_ = 0;
 }
 
 std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
@@ -102,136 +66,117 @@ std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
   if (image.width_px != camera_->intrinsics().width_px || image.height_px != camera_->intrinsics().height_px) {
     return FrameDrop::kSize;
   }
-  if (window_.frames().empty()) return std::nullopt;
-  const Image& before = window_.frames().back();
-  if (image.stamp == before.stamp) return FrameDrop::kDuplicate;
-  if (image.stamp < before.stamp) return FrameDrop::kBackwards;
+  if (window_.size() == 0) return std::nullopt;
+  const Stamp before = window_.at(window_.newest()).stamp;
+  if (image.stamp == before) return FrameDrop::kDuplicate;
+  if (image.stamp < before) return FrameDrop::kBackwards;
   return std::nullopt;
 }
 
 bool BeaconDetector::breaks_window(const Image& image) const {
-  const auto& frames = window_.frames();
-  if (frames.empty()) return false;
-  if (frames.back().bits != image.bits) return true;
+  if (window_.size() == 0) return false;
+  const Image& before = window_.at(window_.newest());
+  if (before.bits != image.bits) return true;
   // A pause of half a window leaves the tones within it hardly to be told apart.
-  const double mean_period_s =
-      frames.size() < 2 ? 0
-                        : seconds(frames.back().stamp - frames.front().stamp) / static_cast<double>(frames.size() - 1);
-  return frames.size() > 2 && seconds(image.stamp - frames.back().stamp) > 0.5 * params_.window_frames * mean_period_s;
-}
-
-double BeaconDetector::white_level(const Image& image) const {
-  return params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0);
+  return window_.size() > 2 && seconds(image.stamp - before.stamp) > 0.5 * params_.window_frames * window_.period_s();
 }
 
 double BeaconDetector::power_threshold(const Image& image) const {
-  const auto& frames = window_.frames();
-  const double period_s = seconds(frames.back().stamp - frames.front().stamp) / static_cast<double>(frames.size() - 1);
-  const double trials_per_hour =
-      3600.0 / period_s * image.width_px * image.height_px * static_cast<double>(params_.tone_table_hz.size());
+  // A blob's place is free: the highest power among all places is that of this many independent pixels.
+  constexpr double kPlacesPerPixel = 5.0;
+  const double trials_per_hour = 3600.0 / window_.period_s() * kPlacesPerPixel * image.width_px * image.height_px *
+                                 static_cast<double>(params_.tone_table_hz.size());
   // Power over variance is chi-square with two degrees of freedom: P(> x) = exp(-x / 2).
   return 2.0 * std::log(trials_per_hour / params_.false_alarms_per_hour);
 }
 
-std::vector<BlobPath> BeaconDetector::candidate_paths(const WindowMotion& motion, const ToneBank& bank,
-                                                      double power_threshold) {
-  std::vector<BlobPath> paths;
-  const auto full_age = static_cast<std::size_t>(window_.capacity());
-  for (BlobTrack& track : tracks_) {
-    auto path = track.fit_path(motion);
-    if (path && track.age_frames() >= full_age) paths.push_back(std::move(*path));
-  }
-
+bool BeaconDetector::image_moves() const {
   const auto& lens = camera_->intrinsics();
   const Eigen::Vector2d axis(lens.cx_px, lens.cy_px);
-  const auto axis_then = motion.pixel_then(axis, 0);
-  if (!axis_then || (*axis_then - axis).norm() > kStillImagePx) return paths;
-
-  // A pixel whose tones would pass their own test varies by at least the tones' power beside N - 1 shares of noise;
-  // half of that power is asked for, so that next to nothing is missed here.
-  const double limit = noise_variance_ * (window_.capacity() - 1 + 0.5 * power_threshold);
-  for (const Eigen::Vector2i& pixel : window_.varying_pixels(limit)) {
-    if (paths.size() >= static_cast<std::size_t>(2 * params_.max_blobs)) break;
-    const Eigen::Vector2d place = pixel.cast<double>();
-    const bool known = std::any_of(paths.begin(), paths.end(), [&](const BlobPath& path) {
-      return (path.pixels.back() - place).norm() < kMergePx;
-    });
-    // What its strongest tone cannot pass alone, no neighbour will make pass: noise is at least the dark noise.
-    if (known || strongest_power(window_, bank, pixel) < power_threshold * noise_variance_) continue;
-    BlobPath path;
-    path.pixels.assign(motion.stamps.size(), place);
-    path.still = true;
-    paths.push_back(std::move(path));
-  }
-  return paths;
+  const auto before = motion_.pixel_from(axis, window_.T_before_now(window_.newest()));
+  return !before || (*before - axis).norm() > kStillImagePx;
 }
 
-std::optional<Sighting> BeaconDetector::examine(const BlobPath& path, const ToneBank& bank, double white_level,
-                                                double power_threshold) const {
-  const auto patch = demodulate(window_, bank, path, white_level);
-  if (!patch) return std::nullopt;
-
-  // The pixels that vary more than dark noise does carry the blob.
-  const double quiet = noise_variance_ * (patch->frames - 1);
-  const auto lit = (patch->valid && patch->squares > static_cast<float>(2.0 * quiet)).eval();
-  if (!lit.any()) return std::nullopt;
-
-  std::vector<double> power;
-  for (int tone = 0; tone < bank.tones(); ++tone) {
-    power.push_back(lit.select(patch->power(tone) - static_cast<float>(2.0 * noise_variance_), 0.0f).sum());
+void BeaconDetector::choose_lags() {
+  // Lag k shows a tone with 4 sin^2(pi f k / fs); the two lags in turn show the worst tone best.
+  constexpr double kChange = 0.1;
+  const double period_s = window_.period_s();
+  if (window_.size() < 3 || std::abs(period_s - lags_for_s_) < kChange * lags_for_s_) return;
+  lags_for_s_ = period_s;
+  const auto shown = [&](double tone_hz, int lag) { return std::pow(std::sin(kPi * tone_hz * lag * period_s), 2); };
+  double best = -1;
+  for (int even = 1; even <= ChangeScan::kMaxLag; ++even) {
+    for (int odd = even; odd <= ChangeScan::kMaxLag; ++odd) {
+      double worst = 2;
+      for (const double tone_hz : params_.tone_table_hz)
+        worst = std::min(worst, shown(tone_hz, even) + shown(tone_hz, odd));
+      if (worst <= best) continue;
+      best = worst;
+      scan_.set_lags(even, odd);
+    }
   }
-  const ToneSet code = decide_code(power, params_.code);
-  if (code.empty()) return std::nullopt;
-
-  const PatchArray noise = noise_of(*patch, code, noise_variance_);
-  PatchArray weakest = PatchArray::Constant(std::numeric_limits<float>::max());
-  double sent = 0;
-  for (int tone : code.indices()) {
-    weakest = weakest.min(patch->power(tone));
-    sent += power[static_cast<std::size_t>(tone)];
-  }
-  const float best = patch->valid.select(weakest / noise, 0.0f).maxCoeff();
-  if (best < power_threshold) return std::nullopt;
-
-  const double varying = lit.select(patch->squares - static_cast<float>(quiet), 0.0f).sum();
-  if (sent < params_.min_explained * varying) return std::nullopt;
-
-  const auto fit = fit_centre(coherent_amplitude(*patch, code, lit), noise, patch->valid);
-  if (!fit) return std::nullopt;
-
-  Sighting sighting;
-  sighting.pixel = patch->origin.cast<double>() + fit->centre_px;
-  sighting.covariance = fit->covariance + path.newest_covariance;
-  sighting.tones = code;
-  sighting.snr_db = 10.0 * std::log10(best / 2.0);
-  sighting.saturated = patch->saturated;
-  return sighting;
 }
 
-Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const CameraMotion& camera_motion) {
+void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
+  for (const ChangeScan::Change& change : scan_.restless()) {
+    if (tracker_.covers(change.pixel.cast<double>())) continue;
+    if (searches_left_ <= 0) {
+      scan_.defer(change.pixel);
+      continue;
+    }
+    const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, noise);
+    BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
+    // A moving blob may be here as well: only a code that stands the test takes its place.
+    const bool suspected = tracker_.suspects(change.pixel.cast<double>());
+    const bool found = track && read_new(*track, power_threshold, noise) &&
+                       (!suspected || reader_.read(*track, window_, bank_, power_threshold, noise.dark_variance));
+    if (track && !found) tracker_.drop_last();
+    if (found && suspected) tracker_.drop_suspects_of_last();
+    scan_.settle(change.pixel, found);
+    searches_left_ -= found ? 0 : 1;
+  }
+}
+
+bool BeaconDetector::read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise) {
+  // Width, clipping and noise decide how the light is read, and the light decides on them: some rounds.
+  constexpr int kRounds = 8;
+  constexpr double kAimedPx = 0.005;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!track.read_window(window_, window_.size(), noise)) return false;
+    reader_.learn(track, bank_, noise.dark_variance);
+    const bool aimed = (track.path().pixel() - track.anchor()).norm() < kAimedPx;
+    if (!track.reshape(noise.dark_variance) && aimed) break;
+  }
+  return reader_.varies(track, bank_, power_threshold, noise.dark_variance);
+}
+
+Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const CameraMotion& camera_motion,
+                                                     Sightings reuse) {
   if (const auto reason = fault(image)) {
     drops_.add(*reason);
     return *reason;
   }
   if (breaks_window(image)) reset();
-  window_.push(image);
-  background_.update(image);
+  window_.push(image, window_.size() == 0 ? RigidTransform(RigidTransform::Identity())
+                                          : camera_motion.T_then_now(window_.at(window_.newest()).stamp, image.stamp));
+  bank_.set(window_.newest(), image.stamp);
+  choose_lags();
+  scan_.push(image);
+  const PixelNoise noise{scan_.pixel_variance(),
+                         static_cast<float>(params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0))};
+  // What was not used while the window filled up, or the image moved, is there for what waits.
+  searches_left_ = std::min(searches_left_ + scan_.budget(), params_.window_frames * scan_.budget());
+  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, noise);
 
-  WindowMotion motion{camera_.get(), window_.stamps(), {}, plane_height_m_};
-  motion.T_then_now = camera_motion.T_then_now(motion.stamps);
-  const double threshold = std::max(params_.min_spot_levels, params_.min_spot_sigmas * std::sqrt(noise_variance_));
-  const auto spots = find_spots(image, background_, threshold, kMaxSpots);
-  follow_spots(tracks_, spots, motion, static_cast<std::size_t>(window_.capacity()),
-               static_cast<std::size_t>(params_.max_blobs));
-
-  Sightings result{image.stamp, {}};
+  Sightings result = std::move(reuse);
+  result.stamp = image.stamp;
+  result.sightings.clear();
   if (!window_.full()) return result;
-  noise_variance_ = window_.noise_variance();
-
-  const ToneBank bank(motion.stamps, params_.tone_table_hz);
+  bank_.update();
   const double limit = power_threshold(image);
-  for (const BlobPath& path : candidate_paths(motion, bank, limit)) {
-    const auto sighting = examine(path, bank, white_level(image), limit);
+  if (!image_moves()) discover(limit, noise);
+  for (BlobTrack& track : tracker_) {
+    const auto sighting = reader_.read(track, window_, bank_, limit, noise.dark_variance);
     if (!sighting || !camera_->contains(sighting->pixel)) continue;
     const auto twin = std::find_if(result.sightings.begin(), result.sightings.end(), [&](const Sighting& other) {
       return (other.pixel - sighting->pixel).norm() < kMergePx;

@@ -1,185 +1,202 @@
 #include "lodestar/sensing/beacon/blob_track.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 namespace lodestar {
 namespace {
 
-constexpr double kStillPx = 0.5;           ///< paths shorter than this are points
-constexpr double kStraightPx = 6.0;        ///< shorter deviations are lines, longer ones parabolas
-constexpr double kMinElevationSine = 0.1;  ///< below it the ceiling is too far away to be a plane
-constexpr double kOutlierPx = 1.5;
-constexpr double kMinCentreSigmaPx = 0.03;  ///< of one frame's centroid
+constexpr double kAimPx = 0.02;      ///< a filter serves places this near to its own
+constexpr float kSeenSigmas = 3.0f;  ///< light of one frame that places the blob
+constexpr float kSureSigmas = 8.0f;  ///< ... and that may pull it farther than one step
+constexpr double kPullPx = 0.3;
+constexpr double kUncertainPx2 = 0.1;  ///< a prediction worse than this is helped by the spot's centroid
+constexpr double kMinGatePx = 1.0, kMaxGatePx = 3.5;
+constexpr float kWidthStep = 0.01f;  ///< of the spot's width; less is not worth reading the window anew
+constexpr float kMovingWidthStep = 0.05f;
+constexpr float kMaxClippedPx = 4.8f;  ///< what clips farther out leaves too little of the patch
+constexpr float kMinSigmaPx = 0.4f, kMaxSigmaPx = 2.5f;
 
-/// Polynomial over time, one column an axis, fitted to the deviations twice: the second time without outliers.
-struct DeviationFit {
-  Eigen::Matrix<double, Eigen::Dynamic, 2> coefficients;
-  Eigen::Matrix2d newest_covariance = Eigen::Matrix2d::Zero();
-
-  Eigen::Vector2d at(double time_s) const {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    double power = 1;
-    for (Eigen::Index i = 0; i < coefficients.rows(); ++i, power *= time_s)
-      sum += power * coefficients.row(i).transpose();
-    return sum;
-  }
-};
-
-struct Deviation {
-  double time_s;
-  Eigen::Vector2d value_px;
-};
-
-DeviationFit fit(const std::vector<Deviation>& points, int order) {
-  const auto rows = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd powers(rows, order + 1);
-  Eigen::Matrix<double, Eigen::Dynamic, 2> values(rows, 2);
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    const Deviation& point = points[static_cast<std::size_t>(r)];
-    for (int c = 0; c <= order; ++c) powers(r, c) = std::pow(point.time_s, c);
-    values.row(r) = point.value_px.transpose();
-  }
-  DeviationFit result;
-  const auto qr = powers.colPivHouseholderQr();
-  result.coefficients = qr.solve(values);
-  const double variance = (values - powers * result.coefficients).squaredNorm() /
-                          std::max<double>(1.0, 2.0 * static_cast<double>(rows - order - 1));
-  const Eigen::MatrixXd information = powers.transpose() * powers;
-  const double leverage = information.ldlt().solve(Eigen::VectorXd::Unit(order + 1, 0))[0];
-  result.newest_covariance =
-      Eigen::Matrix2d::Identity() * leverage * std::max(variance, kMinCentreSigmaPx * kMinCentreSigmaPx);
-  return result;
-}
-
-DeviationFit robust_fit(std::vector<Deviation> points, int order) {
-  const auto keeps = static_cast<std::size_t>(order + 2);
-  DeviationFit result = fit(points, order);
-  points.erase(
-      std::remove_if(points.begin(), points.end(),
-                     [&](const Deviation& p) { return (p.value_px - result.at(p.time_s)).norm() > kOutlierPx; }),
-      points.end());
-  return points.size() >= keeps ? fit(points, order) : result;
-}
+Eigen::Vector2i nearest(const Eigen::Vector2d& place) { return place.array().round().matrix().cast<int>(); }
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> WindowMotion::point(const Eigen::Vector2d& pixel) const {
-  const auto bearing = camera->bearing(pixel);
-  if (!bearing) return std::nullopt;
-  return bearing->direction * (plane_height_m / std::max(kMinElevationSine, bearing->direction.z()));
+BlobTrack::BlobTrack(const PathFilter& path, int slots)
+    : path_(path),
+      flux_(Series::Zero(slots)),
+      shift_u_(flux_),
+      shift_v_(flux_),
+      widening_(flux_),
+      clipped_radius_(flux_),
+      places_(static_cast<std::size_t>(slots), path.pixel()) {}
+
+void BlobTrack::restart(const PathFilter& path) {
+  path_ = path;
+  shape_ = SpotShape();
+  designed_ = false;
+  code = ToneSet();
+  hidden = false;
+  flux_.setZero();
+  shift_u_.setZero();
+  shift_v_.setZero();
+  widening_.setZero();
+  clipped_radius_.setZero();
+  pixel_variance_ = 0;
+  newest_flux_ = 0;
+  frames_ = age_ = hits_ = unseen_ = 0;
 }
 
-std::optional<Eigen::Vector2d> WindowMotion::pixel_then(const Eigen::Vector2d& pixel, std::size_t i) const {
-  const auto X = point(pixel);
-  if (!X) return std::nullopt;
-  const auto projection = camera->project(T_then_now[i] * *X);
-  if (!projection) return std::nullopt;
-  return projection->pixel;
+double BlobTrack::gate_px() const { return std::clamp(4.0 * std::sqrt(path_.variance()), kMinGatePx, kMaxGatePx); }
+
+void BlobTrack::hide() {
+  hidden = true;
+  unseen_ = static_cast<int>(flux_.size());
+  frames_ = 0;
 }
 
-std::optional<Eigen::Vector2d> WindowMotion::pixel_now(const Eigen::Vector2d& pixel_before) const {
-  const auto X = point(pixel_before);
-  if (!X) return std::nullopt;
-  const auto projection = camera->project(T_then_now[T_then_now.size() - 2].inverse() * *X);
-  if (!projection) return std::nullopt;
-  return projection->pixel;
+void BlobTrack::aim(const Eigen::Vector2d& place) {
+  if (designed_ && (place - anchor_).norm() <= kAimPx) return;
+  const Eigen::Vector2f moved = (place - anchor_).cast<float>();
+  if (moved.norm() < 1) {  // the shifts of the window, as seen from the new place
+    shift_u_ -= flux_ * moved.x();
+    shift_v_ -= flux_ * moved.y();
+  }
+  anchor_ = place;
+  filter_.design(place - place.array().round().matrix(), shape_);
+  designed_ = true;
 }
 
-bool BlobTrack::predict(const WindowMotion& motion) {
-  const auto moved = motion.pixel_now(pixel_);
-  if (!moved) return false;
-  step_px_ = (*moved - pixel_).norm();
-  const auto newest = motion.stamps.end() - 1;
-  pixel_ = *moved + deviation_px_s_ * seconds(*newest - *(newest - 1));
+void BlobTrack::record(int slot, const SpotLight& light, float clipped_radius) {
+  flux_[slot] = light.flux;
+  shift_u_[slot] = light.shift.x();
+  shift_v_[slot] = light.shift.y();
+  widening_[slot] = light.widening;
+  clipped_radius_[slot] = clipped_radius;
+  places_[static_cast<std::size_t>(slot)] = anchor_;
+}
+
+BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d& place, const PixelNoise& noise) {
+  const Image& image = window.at(window.newest());
+  const double variance = std::max(noise.dark_variance, pixel_variance_);
+  const double gate = gate_px();
+  ++age_;
+
+  const auto read_at = [&](const Eigen::Vector2d& aimed) {
+    aim(aimed);
+    return patch_.read(image, nearest(anchor_));
+  };
+  if (!path_.still() && path_.variance() > kUncertainPx2 && patch_.read(image, nearest(place)) &&
+      (patch_.centroid() - place).norm() < gate) {
+    if (!read_at(patch_.centroid())) return Look::kOutside;
+  } else if (!read_at(place)) {
+    return Look::kOutside;
+  }
+  SpotLight light;
+  float sigma = 0;
+  for (int step = 0; step < 4; ++step) {
+    light = filter_.read(patch_);
+    sigma = std::sqrt(static_cast<float>(variance) * filter_.flux_variance());
+    if (light.flux < kSureSigmas * sigma) break;
+    const Eigen::Vector2d shift = (light.shift / light.flux).cast<double>();
+    if (shift.norm() < kPullPx) break;
+    const Eigen::Vector2d pulled = anchor_ + shift * std::min(1.0, 1.0 / shift.norm());
+    if ((pulled - place).norm() > gate) break;
+    if (!read_at(pulled)) return Look::kOutside;
+  }
+
+  const Eigen::Vector2d pixel = anchor_ + (light.shift / std::max(light.flux, sigma)).cast<double>();
+  const bool seen = light.flux > kSeenSigmas * sigma && (pixel - place).norm() < gate;
+  const float clipped = patch_.clipped_radius(anchor_, noise.white_level);
+  if (clipped > kMaxClippedPx) return Look::kOutside;
+  const int slot = window.newest();
+  record(slot, light, clipped);
+  newest_flux_ = light.flux;
+  frames_ = std::min(frames_ + 1, static_cast<int>(flux_.size()));
+  if (!seen) {
+    ++unseen_;
+    // A hidden one's window begins where its light comes back; the dark part of a code is shorter than this.
+    if (hidden && 3 * unseen_ > static_cast<int>(flux_.size())) frames_ = 0;
+    return Look::kDark;
+  }
+  unseen_ = 0;
+  ++hits_;
+  const float before = shape_.clipped_radius_px;
+  path_.update(pixel, variance * filter_.shift_variance() / (static_cast<double>(light.flux) * light.flux));
+  if (reshape(noise.dark_variance)) {
+    if (path_.still()) {
+      read_window(window, frames_, noise);
+    } else if (shape_.clipped_radius_px != before) {
+      for (int older = frames_ - 1; older >= 0; --older) {
+        const int at = window.slot(older);
+        look_back(window, older, places_[static_cast<std::size_t>(at)], noise);
+      }
+    }
+  }
+  return Look::kSeen;
+}
+
+bool BlobTrack::reshape(double dark_variance) {
+  const bool clipping = follow_clipping();
+  const bool width = follow_width(dark_variance);
+  const bool shot_noise = follow_shot_noise(dark_variance);
+  if (clipping || width || shot_noise) designed_ = false;
+  return !designed_;
+}
+
+bool BlobTrack::follow_clipping() {
+  constexpr float kMarginPx = 0.1f;  // the next frame may clip a little more
+  const float clipped = clipped_radius_.maxCoeff();
+  const float before = shape_.clipped_radius_px;
+  if (clipped <= before && clipped > before - 0.5f) return false;
+  shape_.clipped_radius_px = clipped > 0 ? clipped + kMarginPx : 0;
+  return shape_.clipped_radius_px != before;
+}
+
+bool BlobTrack::follow_width(double dark_variance) {
+  if (2 * frames_ < static_cast<int>(flux_.size())) return false;
+  const float square = flux_.square().sum();
+  const float wider = (flux_ * widening_).sum() / square;
+  const double variance = std::max(dark_variance, pixel_variance_) * filter_.widening_variance();
+  if (square < 100 * variance || wider * wider * square < 9 * variance) return false;
+  if (std::abs(wider) < (path_.still() ? kWidthStep : kMovingWidthStep) * shape_.sigma_px) return false;
+  const float reach = 0.5f * shape_.sigma_px, before = shape_.sigma_px;
+  shape_.sigma_px = std::clamp(before + std::clamp(wider, -reach, reach), kMinSigmaPx, kMaxSigmaPx);
+  widening_ -= flux_ * (shape_.sigma_px - before);  // as seen from the new width
+  return shape_.sigma_px != before;
+}
+
+bool BlobTrack::follow_shot_noise(double dark_variance) {
+  if (!path_.still() || saturated() || pixel_variance_ == 0) return false;
+  // With weights that are right the residual is that of dark pixels; half of the light weighs like the peak.
+  const double excess = pixel_variance_ / dark_variance;
+  const double shot = 2 * (excess * (1 + 0.5 * shape_.shot) - 1);
+  float level = 0;
+  for (const float next : {1.0f, 4.0f, 16.0f, 64.0f})
+    if (shot > 0.5 * next) level = next;
+  // From one level to the next there is a factor of four: noise of the estimate does not move it to and fro.
+  const bool near = shape_.shot > 0 ? shot > 0.25 * shape_.shot && shot < 3 * shape_.shot : level <= 0;
+  if (near || level == shape_.shot) return false;
+  shape_.shot = level;
+  pixel_variance_ = 0;
   return true;
 }
 
-void BlobTrack::match(const std::optional<Eigen::Vector2d>& centre, std::size_t window_frames) {
-  centres_.push_back(centre);
-  if (centres_.size() > window_frames) centres_.pop_front();
-  unseen_ = centre ? 0 : unseen_ + 1;
+bool BlobTrack::read_window(const FrameWindow& window, int frames, const PixelNoise& noise) {
+  const Eigen::Vector2d place = path_.pixel();
+  for (int age = 0; age < frames; ++age)
+    if (!look_back(window, age, place, noise)) return false;
+  return true;
 }
 
-double BlobTrack::gate_px() const {
-  constexpr double kGatePx = 2.5, kGrowthPx = 0.3, kMaxGatePx = 10;
-  const double unknown = age_frames() < 4 ? 0.5 * step_px_ : 0.15 * step_px_;
-  return std::min(kMaxGatePx, kGatePx + unknown + kGrowthPx * static_cast<double>(unseen_));
-}
-
-std::optional<BlobPath> BlobTrack::fit_path(const WindowMotion& motion) {
-  const std::size_t frames = motion.stamps.size();
-  BlobPath path;
-  for (std::size_t i = 0; i < frames; ++i) {
-    const auto pixel = motion.pixel_then(pixel_, i);
-    if (!pixel) return std::nullopt;
-    path.pixels.push_back(*pixel);
-  }
-
-  std::vector<Deviation> deviations;
-  for (std::size_t age = 0; age < std::min(centres_.size(), frames); ++age) {
-    const auto& centre = centres_[centres_.size() - 1 - age];
-    const std::size_t i = frames - 1 - age;
-    if (centre) deviations.push_back({seconds(motion.stamps[i] - motion.stamps.back()), *centre - path.pixels[i]});
-  }
-  if (deviations.empty()) return path;
-
-  const double travel = (path.pixels.front() - path.pixels.back()).norm();
-  const double spread = (deviations.front().value_px - deviations.back().value_px).norm();
-  path.still = travel + spread < kStillPx;
-  const int wanted = path.still ? 0 : (spread + 0.1 * travel < kStraightPx ? 1 : 2);
-  const int order = std::min<int>(wanted, std::max<int>(0, static_cast<int>(deviations.size()) / 4));
-  const DeviationFit deviation = robust_fit(std::move(deviations), order);
-
-  deviation_px_s_ = order > 0 ? Eigen::Vector2d(deviation.coefficients.row(1)) : Eigen::Vector2d::Zero();
-  pixel_ += deviation.at(0);
-  for (std::size_t i = 0; i < frames; ++i) {
-    if (path.still) {
-      path.pixels[i] = pixel_;
-    } else {
-      path.pixels[i] += deviation.at(seconds(motion.stamps[i] - motion.stamps.back()));
-      path.newest_covariance = deviation.newest_covariance;
-    }
-  }
-  return path;
-}
-
-void follow_spots(std::vector<BlobTrack>& tracks, const std::vector<Spot>& spots, const WindowMotion& motion,
-                  std::size_t window_frames, std::size_t max_tracks) {
-  tracks.erase(std::remove_if(
-                   tracks.begin(), tracks.end(),
-                   [&](BlobTrack& track) { return !track.predict(motion) || !motion.camera->contains(track.pixel()); }),
-               tracks.end());
-
-  struct Pair {
-    double distance_px;
-    std::size_t track, spot;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    for (std::size_t s = 0; s < spots.size(); ++s) {
-      const double distance_px = (spots[s].centre_px - tracks[t].pixel()).norm();
-      if (distance_px < tracks[t].gate_px()) pairs.push_back({distance_px, t, s});
-    }
-  }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance_px < b.distance_px; });
-
-  std::vector<std::optional<Eigen::Vector2d>> matched(tracks.size());
-  std::vector<bool> taken(spots.size(), false);
-  for (const Pair& pair : pairs) {
-    if (matched[pair.track] || taken[pair.spot]) continue;
-    matched[pair.track] = spots[pair.spot].centre_px;
-    taken[pair.spot] = true;
-  }
-  for (std::size_t t = 0; t < tracks.size(); ++t) tracks[t].match(matched[t], window_frames);
-  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
-                              [&](const BlobTrack& track) { return 2 * track.unseen_frames() > window_frames; }),
-               tracks.end());
-
-  for (std::size_t s = 0; s < spots.size() && tracks.size() < max_tracks; ++s) {
-    if (!taken[s]) tracks.emplace_back(spots[s].centre_px);
-  }
+bool BlobTrack::look_back(const FrameWindow& window, int age, const Eigen::Vector2d& place, const PixelNoise& noise) {
+  const int slot = window.slot(age);
+  aim(place);
+  if (!patch_.read(window.at(slot), nearest(anchor_))) return false;
+  const float clipped = patch_.clipped_radius(anchor_, noise.white_level);
+  if (clipped > kMaxClippedPx) return false;
+  record(slot, filter_.read(patch_), clipped);
+  frames_ = std::max(frames_, age + 1);
+  return true;
 }
 
 }  // namespace lodestar

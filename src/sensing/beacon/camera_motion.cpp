@@ -1,6 +1,8 @@
 #include "lodestar/sensing/beacon/camera_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 namespace lodestar {
 
@@ -50,15 +52,16 @@ RigidTransform CameraMotion::T_base_before_base_after(Stamp before, Stamp after)
   return T;
 }
 
-std::vector<RigidTransform> CameraMotion::T_then_now(const std::vector<Stamp>& instants) const {
-  std::vector<RigidTransform> transforms(instants.size(), RigidTransform::Identity());
+RigidTransform CameraMotion::T_then_now(Stamp then, Stamp now) const {
+  constexpr double kMaxStep_s = 0.02;
+  if (angular_.empty() && yaw_.empty()) return RigidTransform::Identity();
+  const auto steps = std::max<std::int64_t>(1, std::llround(std::ceil(seconds(now - then) / kMaxStep_s)));
   RigidTransform T_then_base_now = RigidTransform::Identity();
-  const RigidTransform T_camera_base = T_base_camera_.inverse();
-  for (std::size_t i = instants.size() - 1; i-- > 0;) {
-    T_then_base_now = T_base_before_base_after(instants[i], instants[i + 1]) * T_then_base_now;
-    transforms[i] = T_camera_base * T_then_base_now * T_base_camera_;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    T_then_base_now = T_then_base_now *
+                      T_base_before_base_after(then + (now - then) * i / steps, then + (now - then) * (i + 1) / steps);
   }
-  return transforms;
+  return T_base_camera_.inverse() * T_then_base_now * T_base_camera_;
 }
 
 }  // namespace lodestar

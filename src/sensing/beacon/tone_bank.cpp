@@ -5,39 +5,46 @@
 #include "lodestar/base/common/angle.hpp"
 
 namespace lodestar {
-namespace {
 
-/// Scales `v` to length one.
-/// A tone that the stamps cannot tell from a constant (an alias of 0 Hz) leaves nothing: zero, so its power is zero.
-void normalize_or_clear(Eigen::VectorXd& v) {
-  const double length = v.norm();
-  if (length > 1e-6 * std::sqrt(static_cast<double>(v.size()))) {
-    v /= length;
-  } else {
-    v.setZero();
+ToneBank::ToneBank(int slots, const std::vector<double>& tones_hz)
+    : tones_hz_(tones_hz),
+      waves_(Basis::Zero(2 * static_cast<Eigen::Index>(tones_hz.size()), slots)),
+      basis_(waves_),
+      gram_(Basis::Identity(basis_.rows(), basis_.rows())) {}
+
+ToneBank::ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz)
+    : ToneBank(static_cast<int>(stamps.size()), tones_hz) {
+  for (std::size_t i = 0; i < stamps.size(); ++i) set(static_cast<int>(i), stamps[i]);
+  update();
+}
+
+void ToneBank::set(int slot, Stamp stamp) {
+  if (!started_) epoch_ = stamp;
+  started_ = true;
+  const double time_s = seconds(stamp - epoch_);
+  for (std::size_t k = 0; k < tones_hz_.size(); ++k) {
+    const double phase = 2.0 * kPi * tones_hz_[k] * time_s;
+    waves_(2 * static_cast<Eigen::Index>(k), slot) = static_cast<float>(std::cos(phase));
+    waves_(2 * static_cast<Eigen::Index>(k) + 1, slot) = static_cast<float>(std::sin(phase));
   }
 }
 
-}  // namespace
-
-ToneBank::ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz)
-    : basis_(2 * static_cast<Eigen::Index>(tones_hz.size()), static_cast<Eigen::Index>(stamps.size())) {
-  const auto frames = static_cast<Eigen::Index>(stamps.size());
-  Eigen::VectorXd time_s(frames);
-  for (Eigen::Index i = 0; i < frames; ++i) {
-    time_s[i] = seconds(stamps[static_cast<std::size_t>(i)] - stamps.back());
-  }
-  for (std::size_t k = 0; k < tones_hz.size(); ++k) {
-    const Eigen::ArrayXd phase = 2.0 * kPi * tones_hz[k] * time_s.array();
-    Eigen::VectorXd cosine = phase.cos(), sine = phase.sin();
-    cosine.array() -= cosine.mean();
+void ToneBank::update() {
+  // A tone that the stamps cannot tell from a constant (an alias of 0 Hz) leaves nothing: zero, so its power is zero.
+  const float least = 1e-6f * static_cast<float>(slots());
+  const auto normalize_or_clear = [least](auto&& row) {
+    const float square = row.squaredNorm();
+    row *= square > least ? 1.0f / std::sqrt(square) : 0.0f;
+  };
+  for (Eigen::Index k = 0; k < basis_.rows(); k += 2) {
+    auto cosine = basis_.row(k), sine = basis_.row(k + 1);
+    cosine.array() = waves_.row(k).array() - waves_.row(k).mean();
     normalize_or_clear(cosine);
-    sine.array() -= sine.mean();
+    sine.array() = waves_.row(k + 1).array() - waves_.row(k + 1).mean();
     sine -= cosine.dot(sine) * cosine;
     normalize_or_clear(sine);
-    basis_.row(2 * static_cast<Eigen::Index>(k)) = cosine.cast<float>();
-    basis_.row(2 * static_cast<Eigen::Index>(k) + 1) = sine.cast<float>();
   }
+  gram_.noalias() = basis_ * basis_.transpose();
 }
 
 }  // namespace lodestar

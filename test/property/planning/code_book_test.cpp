@@ -44,8 +44,8 @@ ToneSet decoded(const CodeBook& book, const CodeBookParams& params, const Eigen:
   for (int i = 0; i < params.window_frames; ++i) stamps.push_back(Stamp{} + from_seconds(i / params.rate_hz));
   const ToneBank bank(stamps, book.tone_table_hz);
   const Eigen::VectorXf q = bank.basis() * signal;
-  std::vector<double> power;
-  for (int k = 0; k < bank.tones(); ++k) power.push_back(q.segment<2>(2 * k).squaredNorm());
+  TonePowers power(bank.tones());
+  for (int k = 0; k < bank.tones(); ++k) power[k] = q.segment<2>(2 * k).squaredNorm();
   return decide_code(power, detector);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
@@ -19,7 +20,7 @@ class ToneSet {
   void insert(int index) { bits_ |= std::uint32_t{1} << index; }
   bool contains(int index) const { return (bits_ >> index) & 1u; }
   bool empty() const { return bits_ == 0; }
-  int size() const { return static_cast<int>(indices().size()); }
+  int size() const { return static_cast<int>(std::bitset<kMaxTones>(bits_).count()); }
   std::uint32_t bits() const { return bits_; }
 
   /// Ascending.

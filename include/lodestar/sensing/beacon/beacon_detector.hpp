@@ -9,12 +9,14 @@
 #include "lodestar/base/geometry/camera_model.hpp"
 #include "lodestar/base/measurement/image.hpp"
 #include "lodestar/base/measurement/sighting.hpp"
-#include "lodestar/sensing/beacon/blob_track.hpp"
+#include "lodestar/sensing/beacon/blob_tracker.hpp"
 #include "lodestar/sensing/beacon/camera_motion.hpp"
-#include "lodestar/sensing/beacon/demodulation.hpp"
+#include "lodestar/sensing/beacon/change_scan.hpp"
+#include "lodestar/sensing/beacon/code_reader.hpp"
+#include "lodestar/sensing/beacon/flash_search.hpp"
 #include "lodestar/sensing/beacon/frame_window.hpp"
-#include "lodestar/sensing/beacon/spots.hpp"
-#include "lodestar/sensing/beacon/tone_code.hpp"
+#include "lodestar/sensing/beacon/image_motion.hpp"
+#include "lodestar/sensing/beacon/tone_bank.hpp"
 
 namespace lodestar {
 
@@ -22,11 +24,8 @@ struct BeaconDetectorParams {
   std::vector<double> tone_table_hz;   ///< of the site
   int window_frames = 30;              ///< N
   double false_alarms_per_hour = 1.0;  ///< over the whole image, on noise
-  ToneCodeParams code;
-  double min_explained = 0.6;         ///< share of a blob's varying light that its code must account for
+  CodeReaderParams reader;
   std::optional<double> white_level;  ///< where pixels clip, grey levels; empty: the format's largest value
-  double min_spot_levels = 3.0;       ///< a spot to follow stands out of one frame by this many grey levels ...
-  double min_spot_sigmas = 6.0;       ///< ... and by this many sigmas of the noise
   int max_blobs = 128;
 };
 
@@ -44,11 +43,10 @@ const char* name(FrameDrop reason);
 
 /// Finds the blobs that flash in a code (optical_link.md, section 1).
 ///
-/// Blobs of two kinds are demodulated: bright spots, followed from frame to frame along the image motion that gyro and
-/// odometry predict; and, where the image stands still, single pixels whose light varies more than noise does, however
-/// dim. Each pixel around a blob gets its own Goertzel bank over the window (ToneBank); its power is tested against its
-/// own noise at a false-alarm rate that is chosen for the image; the powers of the tones that are not sent are the
-/// counter-proof; the tone amplitudes give the centre. See docs/math/detector.md.
+/// One pass over the bytes finds where the image changes (ChangeScan). What changes in place is looked at through the
+/// whole window (FlashSearch), what moves is followed from where it appears (BlobTracker). From then on a blob costs a
+/// patch of 9 x 9 pixels a frame: least squares give its light and its centre (SpotFilter), a Goertzel bank over its
+/// light in the window gives the powers, these its code (CodeReader). See docs/math/detector.md.
 class BeaconDetector {
  public:
   explicit BeaconDetector(const BeaconDetectorParams& params);
@@ -57,34 +55,40 @@ class BeaconDetector {
   void set_camera(std::shared_ptr<const CameraModel> camera);
 
   /// Mean height of the beacons above the camera; a rough value will do.
-  void set_plane_height(double height_m) { plane_height_m_ = height_m; }
+  void set_plane_height(double height_m) { motion_.plane_height_m = height_m; }
 
   /// The blobs of the window that ends with this image; none while the window fills up. The image is kept (its pixels
   /// must not change) until it leaves the window.
-  Result<Sightings, FrameDrop> process(const Image& image, const CameraMotion& motion);
+  /// @param reuse an earlier result, whose memory the new one takes over: a caller that hands it back causes no
+  /// allocation in steady state
+  Result<Sightings, FrameDrop> process(const Image& image, const CameraMotion& motion, Sightings reuse = {});
 
   void reset();
 
   const BeaconDetectorParams& params() const { return params_; }
   const DropCounts<FrameDrop>& drops() const { return drops_; }
-  std::size_t tracks() const { return tracks_.size(); }
+  std::size_t tracks() const { return tracker_.size(); }
 
  private:
   std::optional<FrameDrop> fault(const Image& image) const;
   bool breaks_window(const Image& image) const;
-  double white_level(const Image& image) const;
   double power_threshold(const Image& image) const;
-  std::vector<BlobPath> candidate_paths(const WindowMotion& motion, const ToneBank& bank, double power_threshold);
-  std::optional<Sighting> examine(const BlobPath& path, const ToneBank& bank, double white_level,
-                                  double power_threshold) const;
+  bool image_moves() const;
+  void choose_lags();
+  void discover(double power_threshold, const PixelNoise& noise);
+  bool read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise);
 
   BeaconDetectorParams params_;
-  std::shared_ptr<const CameraModel> camera_;
-  double plane_height_m_ = 6.0;
   FrameWindow window_;
-  Background background_;
-  double noise_variance_ = 1.0;
-  std::vector<BlobTrack> tracks_;
+  ToneBank bank_;
+  ChangeScan scan_;
+  BlobTracker tracker_;
+  FlashSearch search_;
+  CodeReader reader_;
+  std::shared_ptr<const CameraModel> camera_;
+  ImageMotion motion_;
+  double lags_for_s_ = 0;  ///< frame period that the scan's lags were chosen for
+  int searches_left_ = 0;  ///< without a find, until the next frame
   DropCounts<FrameDrop> drops_;
 };
 

@@ -1,73 +1,100 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
-#include <deque>
-#include <optional>
 #include <vector>
 
-#include "lodestar/base/common/stamp.hpp"
-#include "lodestar/base/geometry/camera_model.hpp"
-#include "lodestar/base/geometry/rigid_transform.hpp"
-#include "lodestar/sensing/beacon/spots.hpp"
+#include "lodestar/base/measurement/tone_set.hpp"
+#include "lodestar/sensing/beacon/frame_window.hpp"
+#include "lodestar/sensing/beacon/path_filter.hpp"
+#include "lodestar/sensing/beacon/spot_filter.hpp"
 
 namespace lodestar {
 
-/// Where a point of the ceiling was seen in each frame of the window, oldest first.
-struct BlobPath {
-  std::vector<Eigen::Vector2d> pixels;                          ///< the last one is the newest frame's
-  Eigen::Matrix2d newest_covariance = Eigen::Matrix2d::Zero();  ///< px^2, of the path's newest end as a whole
-  bool still = false;                                           ///< all pixels are the same
+/// What a track needs to know of the pixels that it reads.
+struct PixelNoise {
+  double dark_variance = 1.0 / 12.0;  ///< grey levels squared
+  float white_level = 255;            ///< where pixels clip
 };
 
-/// How the image of the ceiling moves within one window: the camera's motion, and a plane on which the beacons hang.
-struct WindowMotion {
-  const CameraModel* camera = nullptr;
-  std::vector<Stamp> stamps;               ///< of the window's frames, the last is `now`
-  std::vector<RigidTransform> T_then_now;  ///< camera to camera, one a frame
-  double plane_height_m = 6.0;             ///< of the beacons above the camera
-
-  /// Where what is at `pixel` now was in frame i. None where the lens model has no answer.
-  std::optional<Eigen::Vector2d> pixel_then(const Eigen::Vector2d& pixel, std::size_t i) const;
-  /// Where what was at `pixel` in the frame before the newest is now.
-  std::optional<Eigen::Vector2d> pixel_now(const Eigen::Vector2d& pixel_before) const;
-
- private:
-  std::optional<Eigen::Vector3d> point(const Eigen::Vector2d& pixel) const;
-};
-
-/// One spot followed from frame to frame. Odometry and gyro predict its way; what they miss (the beacon's true height,
-/// a scale error of the wheels, an unfelt sway) is fitted as a smooth deviation from it.
+/// One blob followed from frame to frame, and its light in each frame of the window: all that is left of the image for
+/// those who read its code. One array element a slot of the window.
 class BlobTrack {
  public:
-  explicit BlobTrack(const Eigen::Vector2d& pixel) : pixel_(pixel), centres_{pixel} {}
+  using Series = Eigen::ArrayXf;
 
-  /// Moves to the newest frame. Call once a frame, before match(). False: it has left the lens model's domain.
-  bool predict(const WindowMotion& motion);
+  /// @param slots of the window
+  BlobTrack(const PathFilter& path, int slots);
 
-  /// The spot seen in the newest frame, or none (dark, hidden).
-  void match(const std::optional<Eigen::Vector2d>& centre, std::size_t window_frames);
+  /// Takes a new blob's place without giving up its memory.
+  void restart(const PathFilter& path);
 
-  /// Fits the deviation, and moves the track onto the fitted path. None when the path leaves the domain.
-  std::optional<BlobPath> fit_path(const WindowMotion& motion);
+  /// The newest frame is about to be looked at; the camera's motion takes the blob to `predicted`.
+  void predict(const Eigen::Vector2d& predicted, double interval_s) { path_.predict(predicted, interval_s); }
 
-  const Eigen::Vector2d& pixel() const { return pixel_; }
-  /// How far from the prediction the spot may turn up.
+  enum class Look { kSeen, kDark, kOutside };  ///< outside: of the image, or lost in a surface that clips
+  /// Finds the blob in the newest frame near `place` and reads its light; what is not within the gate is not it.
+  Look look(const FrameWindow& window, const Eigen::Vector2d& place, const PixelNoise& noise);
+
+  /// Reads the light of the frame `age` before the newest, at `place`. Call with ascending ages, from where frames()
+  /// ends. False: outside the image.
+  bool look_back(const FrameWindow& window, int age, const Eigen::Vector2d& place, const PixelNoise& noise);
+
+  /// Reads the newest `frames` anew, as a standing blob. False: outside the image.
+  bool read_window(const FrameWindow& window, int frames, const PixelNoise& noise);
+
+  /// What the light of the window says of the spot's width, clipped core and shot noise. True when that is news: the
+  /// window should be read anew.
+  bool reshape(double dark_variance);
+
+  /// How far from the prediction the blob may turn up, px.
   double gate_px() const;
-  std::size_t age_frames() const { return centres_.size(); }
-  std::size_t unseen_frames() const { return unseen_; }
+
+  /// The newest frames whose light is known without a gap, at most N.
+  int frames() const { return frames_; }
+  int age_frames() const { return age_; }
+  int hits() const { return hits_; }
+  int unseen_frames() const { return unseen_; }
+  float newest_flux() const { return newest_flux_; }
+
+  const PathFilter& path() const { return path_; }
+  PathFilter& path() { return path_; }
+  const Series& flux() const { return flux_; }
+  const Series& shift_u() const { return shift_u_; }  ///< flux times distance from anchor(); of a standing blob
+  const Series& shift_v() const { return shift_v_; }
+  const Eigen::Vector2d& anchor() const { return anchor_; }
+  const SpotFilter& filter() const { return filter_; }
+  const SpotShape& shape() const { return shape_; }
+  bool saturated() const { return shape_.clipped_radius_px > 0; }
+
+  /// Variance of a pixel beside the spot, as the code's residual has it; learnt by who reads the code.
+  void learn_noise(double pixel_variance) { pixel_variance_ = pixel_variance; }
+
+  /// The code it was last sighted with, and whether its light has gone since (hidden by a mast, a rack).
+  ToneSet code;
+  bool hidden = false;
+  void hide();
+  /// Its code was read: it is there, though too faint for one frame to show.
+  void confirm() { unseen_ = 0; }
 
  private:
-  Eigen::Vector2d pixel_;                                     ///< in the newest frame
-  Eigen::Vector2d deviation_px_s_ = Eigen::Vector2d::Zero();  ///< rate of the deviation at the newest frame
-  double step_px_ = 0;                                        ///< length of the last predicted step
-  std::deque<std::optional<Eigen::Vector2d>> centres_;        ///< one a frame, newest last
-  std::size_t unseen_ = 0;
-};
+  void aim(const Eigen::Vector2d& place);
+  void record(int slot, const SpotLight& light, float clipped_radius);
+  bool follow_width(double dark_variance);
+  bool follow_shot_noise(double dark_variance);
+  bool follow_clipping();
 
-/// Predicts all tracks, gives each its nearest spot (each spot once), drops those unseen for half a window or gone from
-/// the image, and starts new ones from the spots that are left over.
-void follow_spots(std::vector<BlobTrack>& tracks, const std::vector<Spot>& spots, const WindowMotion& motion,
-                  std::size_t window_frames, std::size_t max_tracks);
+  PathFilter path_;
+  SpotShape shape_;
+  SpotFilter filter_;
+  bool designed_ = false;
+  Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();  ///< place that the filter is made for
+  Patch patch_;
+
+  Series flux_, shift_u_, shift_v_, widening_, clipped_radius_;
+  std::vector<Eigen::Vector2d> places_;
+  double pixel_variance_ = 0;
+  float newest_flux_ = 0;
+  int frames_ = 0, age_ = 0, hits_ = 0, unseen_ = 0;
+};
 
 }  // namespace lodestar

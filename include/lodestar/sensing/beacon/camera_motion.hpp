@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <deque>
-#include <vector>
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/base/measurement/motion.hpp"
@@ -23,9 +22,9 @@ class CameraMotion {
   void add_odometry(const OdometrySample& sample);
   void reset();
 
-  /// For each instant (ascending, the last is `now`): camera coordinates at `now` to camera coordinates then.
-  /// Identities where nothing is known of the motion (a camera alone).
-  std::vector<RigidTransform> T_then_now(const std::vector<Stamp>& instants) const;
+  /// Camera coordinates at `now` to camera coordinates at `then`, then <= now. Exactly the identity where nothing is
+  /// known of the motion (a camera alone).
+  RigidTransform T_then_now(Stamp then, Stamp now) const;
 
  private:
   struct Rate {

@@ -1,51 +1,42 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <deque>
-#include <variant>
 #include <vector>
 
+#include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/base/measurement/image.hpp"
 
 namespace lodestar {
 
-/// The newest N frames, held (not copied), with each pixel's sum and sum of squares over them, kept incrementally.
-/// The temporal variance of a pixel bounds the power of all tones together: where it is noise there is no tone.
+/// The newest N frames, held (not copied), in a ring: a frame keeps its slot until the frame N later takes it. What is
+/// kept for each frame (tone phases, a blob's light) lies in the same slots, so nothing is ever moved.
 class FrameWindow {
  public:
   explicit FrameWindow(int frames);
 
-  /// Takes a frame in; the oldest leaves when there are more than N.
-  void push(const Image& image);
+  /// @param T_before_now camera coordinates now to those at the frame before
+  void push(const Image& image, const RigidTransform& T_before_now);
   void clear();
 
-  bool full() const { return static_cast<int>(frames_.size()) == capacity_; }
-  int capacity() const { return capacity_; }
-  const std::deque<Image>& frames() const { return frames_; }
-  std::vector<Stamp> stamps() const;
+  int capacity() const { return static_cast<int>(frames_.size()); }
+  int size() const { return size_; }
+  bool full() const { return size_ == capacity(); }
 
-  /// Median over a sparse grid of the pixels' temporal variance, grey levels squared: the sensor's dark noise.
-  /// Never below the variance of rounding, 1/12.
-  double noise_variance() const;
+  int newest() const { return newest_; }
+  /// Slot of the frame `age` frames before the newest, age < size().
+  int slot(int age) const { return (newest_ + capacity() - age) % capacity(); }
+  const Image& at(int slot) const { return frames_[static_cast<std::size_t>(slot)].image; }
+  const RigidTransform& T_before_now(int slot) const { return frames_[static_cast<std::size_t>(slot)].T_before_now; }
 
-  /// Pixels whose temporal sum of squared deviations exceeds `limit` and all of their eight neighbours'.
-  std::vector<Eigen::Vector2i> varying_pixels(double limit) const;
+  /// Mean interval between the frames, s; 0 with less than two.
+  double period_s() const;
 
  private:
-  /// Sums over the window, one a pixel. 32 bits hold the squares of 8-bit pixels, and are twice as fast.
-  template <class Square>
-  struct PixelSums {
-    std::vector<std::uint32_t> sum;
-    std::vector<Square> square;
+  struct Frame {
+    Image image;
+    RigidTransform T_before_now = RigidTransform::Identity();
   };
-
-  template <class Pixel, class Square>
-  void accumulate(const Image& image, const Image* oldest, PixelSums<Square>& sums);
-
-  int capacity_;
-  std::deque<Image> frames_;
-  std::variant<PixelSums<std::uint32_t>, PixelSums<std::uint64_t>> sums_;
+  std::vector<Frame> frames_;
+  int size_ = 0, newest_ = -1;
 };
 
 }  // namespace lodestar

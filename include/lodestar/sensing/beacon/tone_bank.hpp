@@ -8,7 +8,7 @@
 namespace lodestar {
 
 /// The Goertzel bank of one window: for each tone two orthonormal vectors that span cos and sin at the frames' own
-/// stamps, with the constant removed. The squared projections of a pixel's signal are its power at that tone.
+/// stamps, with the constant removed. The squared projections of a signal are its power at that tone.
 ///
 /// On evenly spaced stamps with whole periods in the window the power is 2/N times the squared magnitude of the
 /// textbook recursion (G. Goertzel, Amer. Math. Monthly 65, 1958); on uneven stamps it is the least-squares
@@ -16,18 +16,38 @@ namespace lodestar {
 /// of s2 times a chi-square with two degrees of freedom, whatever the stamps.
 class ToneBank {
  public:
-  /// @param stamps of the window's frames, ascending, at least 4
+  /// Row 2k and 2k + 1 belong to tone k; one column a slot of the window.
+  using Basis = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// @param slots of the window, N >= 4
   /// @param tones_hz the site's tone table
+  ToneBank(int slots, const std::vector<double>& tones_hz);
+
+  /// The bank of frames with these stamps, one a slot.
   ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz);
 
-  int frames() const { return static_cast<int>(basis_.cols()); }
-  int tones() const { return static_cast<int>(basis_.rows()) / 2; }
+  /// A frame takes a slot. Cheap: two angle functions a tone.
+  void set(int slot, Stamp stamp);
 
-  /// Row 2k and 2k + 1 belong to tone k; one column a frame. Columns of signals multiply from the right.
-  const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& basis() const { return basis_; }
+  /// Makes the basis of the frames in all slots. Call when all slots are set.
+  void update();
+
+  int tones() const { return static_cast<int>(basis_.rows()) / 2; }
+  int slots() const { return static_cast<int>(basis_.cols()); }
+  const Basis& basis() const { return basis_; }
+
+  /// Products of the basis' rows with each other: the identity on even stamps with whole periods; what lost and late
+  /// frames make of it tells how much one tone leaks into another.
+  const Basis& gram() const { return gram_; }
+
+  /// cos and sin of the tones at the slots' stamps, as they are: rows as in basis().
+  const Basis& waves() const { return waves_; }
 
  private:
-  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis_;
+  std::vector<double> tones_hz_;
+  Stamp epoch_;  ///< of the phases; the first frame's stamp
+  bool started_ = false;
+  Basis waves_, basis_, gram_;
 };
 
 }  // namespace lodestar

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <Eigen/Core>
 
 #include "lodestar/base/measurement/tone_set.hpp"
 
@@ -11,13 +11,16 @@ struct ToneCodeParams {
   double margin_db = 6.0;   ///< the strongest tone that is not sent is at least this much below the weakest that is
 };
 
+/// Power at each tone of the table.
+using TonePowers = Eigen::Array<float, Eigen::Dynamic, 1, 0, ToneSet::kMaxTones, 1>;
+
 /// The code that a blob's powers spell, by margin: one to three tones of like power, all others well below. Empty where
 /// no code keeps both margins: a doubtful blob has none.
 ///
 /// An on-off beacon leaks its odd harmonics into other tones, at most -8.4 dB where five samples cover a period; a
 /// clipped two-tone beacon its intermodulation, about -9.5 dB: both stay out by margin_db, and neither reaches
 /// balance_db.
-/// @param power one a tone of the table, noise taken off (may be negative)
-ToneSet decide_code(const std::vector<double>& power, const ToneCodeParams& params);
+/// @param power noise taken off (may be negative)
+ToneSet decide_code(const TonePowers& power, const ToneCodeParams& params);
 
 }  // namespace lodestar

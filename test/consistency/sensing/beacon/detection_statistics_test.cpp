@@ -37,7 +37,6 @@ TEST(DetectionStatistics, NoiseRaisesNoMoreAlarmsThanStated) {
   params.tone_table_hz = {5, 10};
   params.window_frames = 15;
   params.false_alarms_per_hour = kPerWindow * 3600 * kRate_hz;
-  params.min_spot_sigmas = 20;  // only the dim pixels' path is on trial
   int alarms = 0;
   for (int window = 0; window < kWindows; ++window) {
     test::BlobScene scene(static_cast<unsigned>(window));

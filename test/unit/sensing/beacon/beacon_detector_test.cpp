@@ -86,7 +86,6 @@ TEST(BeaconDetector, FindsABeaconThatNoSingleFrameShows) {
   scene.lights = {{at(64.0, 40.0), tones(22, {8})}};  // peak pixel: 4 grey levels at most, noise 1.5
   BeaconDetectorParams params;
   params.tone_table_hz = kTable;
-  params.min_spot_sigmas = 100;  // no spot: only its pixel's own variation can betray it
   BeaconDetector detector(params);
   detector.set_camera(camera_for(scene));
   const auto result = run(scene, detector, 35, 60);

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <boost/align/aligned_allocator.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "lodestar/base/measurement/image.hpp"
+
+namespace lodestar {
+
+/// The one pass over all bytes of a frame: where does the image change?
+///
+/// Light is summed over cells of 2 x 2 pixels. A cell's difference d to the frame `lag` before, in units of its noise,
+/// is clipped, squared and summed with forgetting: E += d^2 - E / 2^k, for half of the rows in turn. Dark ceiling,
+/// steady lamps and sun leave noise; anything that flashes or moves does not. All numbers are integers, so every
+/// instruction set gives the same result.
+class ChangeScan {
+ public:
+  static constexpr int kMaxLag = 3;
+
+  /// @param window_frames N; the memory of the energy is about N / 2 frames
+  explicit ChangeScan(int window_frames);
+
+  /// Lags that take turns, 1 to kMaxLag: a tone that one of them does not show (f lag / fs whole) the other does.
+  void set_lags(int first, int second);
+
+  void push(const Image& image);
+  void clear();
+
+  struct Change {
+    Eigen::Vector2i pixel;  ///< upper left one of the cell
+    float size;             ///< in sigmas of a cell's difference (risen), or of its energy (restless)
+  };
+  /// Cells that are brighter than `lag` frames ago by 6 sigma, and more so than their neighbours.
+  const std::vector<Change>& risen() const { return risen_; }
+  /// Cells whose energy passes its limit and is above their neighbours', strongest first.
+  const std::vector<Change>& restless() const { return restless_; }
+
+  /// Something was found at this pixel, or nothing: both set the energy around it to zero. Nothing raises the limit
+  /// of its tile, so that a restless surface (sun, shot noise of a lamp) costs no more than its share.
+  void settle(const Eigen::Vector2i& pixel, bool found);
+  /// There was no time to look: the tile's limit rises.
+  void defer(const Eigen::Vector2i& pixel);
+
+  /// How many cells without a find a frame is good for, over the whole image.
+  int budget() const { return budget_; }
+
+  /// Temporal variance of a dark pixel, grey levels squared: a clipped mean over the image, never below the variance
+  /// of rounding, 1/12.
+  double pixel_variance() const;
+
+  /// Bytes of state, for the whole image.
+  std::size_t bytes() const;
+
+ private:
+  /// Rows begin where cache lines do.
+  template <class Lane>
+  using Plane = std::vector<Lane, boost::alignment::aligned_allocator<Lane, 64>>;
+
+  /// Lane: the integer in which a cell's sum and energy are kept.
+  template <class Lane>
+  struct Planes {
+    Plane<Lane> cells[kMaxLag + 1];
+    Plane<Lane> energy;
+    Plane<Lane> limit;  ///< one a tile
+  };
+
+  template <class Pixel, class Lane>
+  void scan(const Image& image, Planes<Lane>& planes);
+  template <class Lane>
+  void start(const Image& image, Planes<Lane>& planes);
+  template <class Lane>
+  void measure_noise(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
+  template <class Lane>
+  void collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
+  template <class Lane>
+  void settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found);
+  std::size_t tile(int column, int row) const;
+
+  int forget_bits_, clip_;
+  float energy_mean_, energy_sigma_;  ///< of a dark cell
+  int lags_[2] = {1, 2};
+  int columns_ = 0, rows_ = 0, segments_ = 0, bits_ = 0, budget_ = 0;
+  std::uint64_t frames_ = 0;
+  double cell_variance_ = 0;  ///< of a cell's difference
+  std::size_t sample_ = 0;
+  Planes<std::int16_t> narrow_;  ///< of 8-bit images
+  Planes<std::int32_t> wide_;    ///< of 16-bit images
+  std::vector<float> tile_limit_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<Change> risen_, restless_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "lodestar/base/measurement/sighting.hpp"
+#include "lodestar/sensing/beacon/blob_track.hpp"
+#include "lodestar/sensing/beacon/frame_window.hpp"
+#include "lodestar/sensing/beacon/tone_bank.hpp"
+#include "lodestar/sensing/beacon/tone_code.hpp"
+
+namespace lodestar {
+
+struct CodeReaderParams {
+  ToneCodeParams code;
+  double min_explained = 0.6;  ///< share of a blob's varying light that its code must account for
+};
+
+/// Reads the code of a blob from its light over the window, and says where it is now.
+class CodeReader {
+ public:
+  CodeReader(const CodeReaderParams& params, int slots);
+
+  /// The sighting that the blob makes in the newest frame; none where its light is not a code, is too faint, or has
+  /// gone. A blob that was hidden is read from half a window on, and then only as what it was.
+  /// @param power_threshold of each tone of the code over the noise
+  std::optional<Sighting> read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                               double power_threshold, double dark_variance);
+
+  /// Learns the noise of a new blob's pixels and its centre from a full window.
+  void learn(BlobTrack& track, const ToneBank& bank, double dark_variance);
+
+  /// Whether the light of a full window varies more than noise does: in all, or at a tone.
+  bool varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance);
+
+ private:
+  struct Reading {
+    ToneSet code;  ///< empty: none that keeps the margins
+    int tones = 0;
+    float sent = 0, energy = 0;    ///< power of the code's tones, and of all that varies
+    float mean = 0;                ///< light, grey levels
+    float weakest_over_noise = 0;  ///< power of the code's weakest tone
+    double pixel_variance = 0;     ///< as the residual has it
+    bool explained = false;        ///< the code accounts for enough of the varying light
+  };
+  /// The code's tones, fitted together.
+  struct Fit {
+    ToneSet code;                                                 ///< empty: none that keeps the margins
+    Eigen::Matrix<float, Eigen::Dynamic, 1, 0, 7, 1> amplitudes;  ///< of the basis' rows, two a tone, ascending
+  };
+  Fit fit_code(const ToneBank& bank, float noise_power);
+  Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
+  Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
+  bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
+  void refine_centre(BlobTrack& track, const Reading& reading);
+
+  CodeReaderParams params_;
+  Eigen::VectorXf projections_;
+  Eigen::ArrayXf wave_;     ///< the code's part of the light, in each slot
+  Eigen::ArrayXf weights_;  ///< light times the inverse of its noise, in each slot
+};
+
+}  // namespace lodestar

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace lodestar {
+
+/// Where a blob is in the newest frame: two filters, one in force. A blob that stands is a mean with a memory of one
+/// window; a blob that moves has position, velocity and acceleration beside what the camera's motion predicts (all of
+/// it for a camera alone), driven by white jerk whose density follows the innovations.
+class PathFilter {
+ public:
+  /// @param memory_frames of the mean, N
+  PathFilter(const Eigen::Vector2d& pixel, int memory_frames) : pixel_(pixel), memory_frames_(memory_frames) {}
+
+  /// Begins as a standing blob of known variance (px^2).
+  void start_still(double variance);
+  /// Begins as a moving one. @param sigma_px_s of its velocity beside the prediction
+  void start_moving(double variance, double sigma_px_s);
+
+  /// @param predicted where the camera's motion takes the blob by the newest frame
+  void predict(const Eigen::Vector2d& predicted, double interval_s);
+
+  /// The newest frame shows it at `pixel`, with `variance` (px^2, each axis).
+  void update(const Eigen::Vector2d& pixel, double variance);
+
+  const Eigen::Vector2d& pixel() const { return pixel_; }
+  const Eigen::Vector2d& velocity_px_s() const { return velocity_; }
+  double variance() const;
+  bool still() const { return still_; }
+  /// Sets the place of a standing blob: a better one is known.
+  void correct(const Eigen::Vector2d& pixel, double variance);
+
+ private:
+  void stay(const Eigen::Vector2d& innovation, double variance);
+  void move(const Eigen::Vector2d& innovation, double variance);
+
+  Eigen::Vector2d pixel_;
+  Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero(), acceleration_ = Eigen::Vector2d::Zero();
+  int memory_frames_;
+  bool still_ = false;
+  double information_ = 0, squares_ = 0;  ///< of the mean: sums of weights and of squared weights
+  Eigen::Matrix3d P_ = Eigen::Matrix3d::Zero();
+  double jerk_density_ = 1e5;  ///< px^2 / s^5
+  double interval_s_ = 0;
+  double travel_px_ = 0;                                     ///< since the frame before, as predicted
+  Eigen::Vector2d last_surprise_ = Eigen::Vector2d::Zero();  ///< innovation of the frame before, if it was one
+  Eigen::Vector2d quiet_pixel_ = Eigen::Vector2d::Zero();    ///< a moving blob has kept near it for near_frames_
+  int quiet_frames_ = 0, near_frames_ = 0;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,250 @@
+#include "lodestar/sensing/beacon/change_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "change_kernel.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr int kTileRows = 16;       ///< a tile is one segment wide and 16 cells high
+constexpr int kBands = 2;           ///< a row's energy is renewed in each second frame
+constexpr double kReachSigmas = 8;  ///< a difference is clipped here
+constexpr double kRisenSigmas = 6;
+constexpr float kFirstLimit = 3.5f;  ///< sigmas of a cell's energy
+constexpr float kLeastLimit = 2.0f;
+constexpr float kLimitStep = 0.05f;  ///< what one settled cell without a find adds
+constexpr int kNoiseSample = 256;    ///< cells a frame
+constexpr double kNoiseForgets = 1.0 / 16;
+constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
+
+const ChangeKernels& kernels() {
+  static const ChangeKernels best = best_change_kernels();
+  return best;
+}
+
+ChangeKernel<std::uint8_t, std::int16_t> kernel_for(std::int16_t) { return kernels().narrow; }
+ChangeKernel<std::uint16_t, std::int32_t> kernel_for(std::int32_t) { return kernels().wide; }
+
+/// Mean of squares, those beyond 9 variances clipped, and what clipping takes from Gaussian noise given back.
+template <class Next>
+double clipped_mean(int count, double variance, Next&& next_square) {
+  constexpr double kLeft = 0.9950;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += std::min<double>(next_square(), 9 * variance);
+  return sum / count / kLeft;
+}
+
+}  // namespace
+
+ChangeScan::ChangeScan(int window_frames)
+    : forget_bits_(std::clamp(static_cast<int>(std::lround(std::log2(0.5 * window_frames / kBands))), 1, 6)),
+      // The energy of a 16-bit lane that is always clipped: clip^2 2^bits, below 2^15.
+      clip_(static_cast<int>(std::sqrt(32767.0 / (1 << forget_bits_)))) {
+  const double unit = clip_ / kReachSigmas;  // what one sigma of a difference is scaled to
+  energy_mean_ = static_cast<float>(unit * unit * (1 << forget_bits_));
+  // Differences at one lag are correlated (-1/2), which makes the variance of a sum of their squares 3/2 times that of
+  // independent ones: 3 unit^4 a frame, over the forgetting's sum of squared weights.
+  const double keep = 1 - std::pow(0.5, forget_bits_);
+  energy_sigma_ = static_cast<float>(unit * unit * std::sqrt(3.0 / (1 - keep * keep)));
+}
+
+void ChangeScan::set_lags(int first, int second) {
+  lags_[0] = first;
+  lags_[1] = second;
+}
+
+void ChangeScan::clear() { frames_ = 0; }
+
+std::size_t ChangeScan::bytes() const {
+  const auto planes = [](const auto& p) {
+    std::size_t lanes = p.energy.capacity() + p.limit.capacity();
+    for (const auto& cells : p.cells) lanes += cells.capacity();
+    return lanes * sizeof(p.energy[0]);
+  };
+  return planes(narrow_) + planes(wide_);
+}
+
+double ChangeScan::pixel_variance() const { return std::max(cell_variance_, kLeastCellVariance) / 8; }
+
+std::size_t ChangeScan::tile(int column, int row) const {
+  return static_cast<std::size_t>((row / kTileRows) * segments_ + column / kSegment);
+}
+
+template <class Lane>
+void ChangeScan::start(const Image& image, Planes<Lane>& planes) {
+  columns_ = image.width_px / 2;
+  rows_ = image.height_px / 2;
+  bits_ = image.bits;
+  segments_ = (columns_ + kSegment - 1) / kSegment;
+  budget_ = 2 + columns_ * rows_ / 16384;
+  const auto cells = static_cast<std::size_t>(segments_ * kSegment) * static_cast<std::size_t>(rows_);
+  for (auto& plane : planes.cells) plane.assign(cells, 0);
+  planes.energy.assign(cells, 0);
+  const auto tiles =
+      static_cast<std::size_t>(segments_) * static_cast<std::size_t>((rows_ + kTileRows - 1) / kTileRows);
+  planes.limit.assign(tiles, 0);
+  tile_limit_.assign(tiles, kFirstLimit);
+  flags_.assign(static_cast<std::size_t>(segments_ * rows_), 0);
+  cell_variance_ = 0;
+}
+
+void ChangeScan::push(const Image& image) {
+  if (image.bits == 8) {
+    scan<std::uint8_t>(image, narrow_);
+  } else {
+    scan<std::uint16_t>(image, wide_);
+  }
+}
+
+template <class Pixel, class Lane>
+void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
+  if (frames_ == 0 || bits_ != image.bits || columns_ != image.width_px / 2 || rows_ != image.height_px / 2)
+    start(image, planes);
+  risen_.clear();
+  restless_.clear();
+  const auto lag = std::min(frames_, static_cast<std::uint64_t>(lags_[frames_ / kBands % 2]));
+  auto& now = planes.cells[frames_ % (kMaxLag + 1)];
+  const auto& before = planes.cells[(frames_ + kMaxLag + 1 - lag) % (kMaxLag + 1)];
+
+  const double sigma = std::sqrt(std::max(cell_variance_, kLeastCellVariance));
+  ChangeUnits units;
+  units.reach = std::max(1, static_cast<int>(std::ceil(kReachSigmas * sigma)));
+  units.multiplier = static_cast<int>(std::lround((1 << ChangeUnits::kShift) * clip_ / (kReachSigmas * sigma)));
+  units.multiplier = std::clamp(units.multiplier, 1, (clip_ << ChangeUnits::kShift) / units.reach);
+  units.risen = static_cast<int>(kRisenSigmas * sigma);
+  units.forget_bits = forget_bits_;
+  // Each tile's limit sinks by as much in a frame as its share of the budget raises it.
+  const float sink = kLimitStep * static_cast<float>(budget_) / static_cast<float>(tile_limit_.size());
+  for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
+    tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink);
+    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, energy_mean_ + tile_limit_[i] * energy_sigma_));
+  }
+
+  const auto kernel = kernel_for(Lane{});
+  const int whole = image.width_px / (2 * kSegment);
+  for (int row = 0; row < rows_; ++row) {
+    const auto first = static_cast<std::size_t>(row * segments_) * kSegment;
+    ChangeRow<Pixel, Lane> in{
+        image.row<Pixel>(2 * row),
+        image.row<Pixel>(2 * row + 1),
+        before.data() + first,
+        now.data() + first,
+        static_cast<std::uint64_t>(row) % kBands == frames_ % kBands ? planes.energy.data() + first : nullptr,
+        planes.limit.data() + tile(0, row),
+        flags_.data() + row * segments_,
+        whole};
+    kernel(in, units);
+    if (whole == segments_) continue;
+    // What is left of the row, filled up with its last pixel.
+    Pixel upper[2 * kSegment], lower[2 * kSegment];
+    for (int i = 0; i < 2 * kSegment; ++i) {
+      const int u = std::min(whole * 2 * kSegment + i, image.width_px - 1);
+      upper[i] = in.upper[u];
+      lower[i] = in.lower[u];
+    }
+    const int offset = whole * kSegment;
+    kernel({upper, lower, in.before + offset, in.cells + offset, in.energy ? in.energy + offset : nullptr,
+            in.limit + whole, in.flags + whole, 1},
+           units);
+  }
+  ++frames_;
+  if (lag == 0) {
+    std::fill(planes.energy.begin(), planes.energy.end(), Lane{0});
+    return;
+  }
+  measure_noise(planes, now, before);
+  collect(planes, now, before);
+}
+
+template <class Lane>
+void ChangeScan::measure_noise(const Planes<Lane>&, const Plane<Lane>& now, const Plane<Lane>& before) {
+  const auto cells = static_cast<std::size_t>(columns_ * rows_);
+  const auto next_square = [&] {
+    constexpr std::size_t kStride = 7919;  // a prime: all over the image
+    sample_ = (sample_ + kStride) % cells;
+    const auto columns = static_cast<std::size_t>(columns_);
+    const std::size_t at = sample_ / columns * static_cast<std::size_t>(segments_ * kSegment) + sample_ % columns;
+    const double d = now[at] - before[at];
+    return d * d;
+  };
+  if (cell_variance_ > 0) {
+    cell_variance_ += kNoiseForgets * (clipped_mean(kNoiseSample, cell_variance_, next_square) - cell_variance_);
+    cell_variance_ = std::max(cell_variance_, kLeastCellVariance);
+    return;
+  }
+  // From above: lights that change are few, and clipping closes in on what the rest does.
+  cell_variance_ = clipped_mean(16 * kNoiseSample, 1e12, next_square);
+  for (int i = 0; i < 20; ++i) {
+    cell_variance_ = std::max(kLeastCellVariance, clipped_mean(16 * kNoiseSample, cell_variance_, next_square));
+  }
+}
+
+template <class Lane>
+void ChangeScan::collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before) {
+  const int stride = segments_ * kSegment;
+  const auto difference = [&](std::ptrdiff_t i) { return static_cast<int>(now.data()[i]) - before.data()[i]; };
+  const auto energy = [&](std::ptrdiff_t i) { return static_cast<int>(planes.energy.data()[i]); };
+  // Of two equal neighbours the first one counts.
+  const auto is_peak = [&](std::ptrdiff_t i, auto&& value) {
+    const int here = value(i);
+    for (const std::ptrdiff_t d : {-stride - 1, -stride, -stride + 1, -1})
+      if (value(i + d) >= here) return false;
+    for (const std::ptrdiff_t d : {stride + 1, stride, stride - 1, 1})
+      if (value(i + d) > here) return false;
+    return true;
+  };
+  const float sigma = static_cast<float>(std::sqrt(cell_variance_));
+  const auto risen_limit = static_cast<Lane>(kRisenSigmas * sigma);
+  for (int row = 1; row < rows_ - 1; ++row) {
+    const std::uint8_t* flags = flags_.data() + row * segments_;
+    for (int segment = 0; segment < segments_; ++segment) {
+      if (flags[segment] == 0) continue;
+      const Lane limit = planes.limit[tile(segment * kSegment, row)];
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * stride + segment * kSegment;
+      std::uint8_t hits[kSegment];
+      for (int c = 0; c < kSegment; ++c) {  // plain arithmetic: becomes vector code
+        const Lane rise = static_cast<Lane>(now.data()[first + c] - before.data()[first + c]);
+        hits[c] = static_cast<std::uint8_t>((planes.energy.data()[first + c] > limit ? kFlagRestless : 0) |
+                                            (rise > risen_limit ? kFlagRisen : 0));
+      }
+      const int begin = segment == 0 ? 1 : 0, end = std::min(kSegment, columns_ - 1 - segment * kSegment);
+      for (int c = begin; c < end; ++c) {
+        if (hits[c] == 0) continue;
+        const Eigen::Vector2i pixel(2 * (segment * kSegment + c), 2 * row);
+        if ((hits[c] & kFlagRisen) && is_peak(first + c, difference))
+          risen_.push_back({pixel, static_cast<float>(difference(first + c)) / sigma});
+        if ((hits[c] & kFlagRestless) && is_peak(first + c, energy))
+          restless_.push_back({pixel, (static_cast<float>(energy(first + c)) - energy_mean_) / energy_sigma_});
+      }
+    }
+  }
+  const auto larger = [](const Change& a, const Change& b) { return a.size > b.size; };
+  std::sort(risen_.begin(), risen_.end(), larger);
+  std::sort(restless_.begin(), restless_.end(), larger);
+}
+
+void ChangeScan::settle(const Eigen::Vector2i& pixel, bool found) {
+  const Eigen::Vector2i cell = pixel / 2;
+  if (bits_ == 8) {
+    settle_in(narrow_, cell, found);
+  } else {
+    settle_in(wide_, cell, found);
+  }
+}
+
+void ChangeScan::defer(const Eigen::Vector2i& pixel) { tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)] += kLimitStep; }
+
+template <class Lane>
+void ChangeScan::settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found) {
+  for (int row = std::max(0, cell.y() - 1); row <= std::min(rows_ - 1, cell.y() + 1); ++row) {
+    Lane* energy = planes.energy.data() + static_cast<std::size_t>(row * segments_) * kSegment;
+    for (int column = std::max(0, cell.x() - 1); column <= std::min(columns_ - 1, cell.x() + 1); ++column)
+      energy[column] = 0;
+  }
+  if (!found) tile_limit_[tile(cell.x(), cell.y())] += kLimitStep;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,264 @@
+#include "lodestar/sensing/beacon/code_reader.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lodestar {
+namespace {
+
+constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
+constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
+constexpr int kMaxTonesPerCode = 3;
+constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
+using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
+
+/// Residual of flux * offset = shift with the best offset.
+float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& shift, float flux_square) {
+  const float cross = (flux * shift).sum();
+  return shift.square().sum() - cross * cross / flux_square;
+}
+
+}  // namespace
+
+CodeReader::CodeReader(const CodeReaderParams& params, int slots) : params_(params), wave_(slots), weights_(slots) {}
+
+bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance) {
+  constexpr double kNearThreshold = 0.7, kEnergySigmas = 8;
+  const double noise = dark_variance * track.filter().flux_variance();
+  const auto frames = static_cast<double>(track.flux().size());
+  const double energy = (track.flux() - track.flux().mean()).square().sum();
+  if (energy > noise * (frames + kEnergySigmas * std::sqrt(2 * frames))) return true;
+  projections_.noalias() = bank.basis() * track.flux().matrix();
+  for (int tone = 0; tone < bank.tones(); ++tone)
+    if (projections_.segment<2>(2 * tone).squaredNorm() > kNearThreshold * power_threshold * noise) return true;
+  return false;
+}
+
+CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
+  // The strongest tones are fitted together and taken off the others: on uneven stamps they leak.
+  const auto power = [&](int tone) { return projections_.segment<2>(2 * tone).squaredNorm(); };
+  std::array<int, ToneSet::kMaxTones> order;
+  std::iota(order.begin(), order.end(), 0);
+  const auto most = static_cast<std::ptrdiff_t>(std::min(kMaxTonesPerCode, bank.tones()));
+  std::partial_sort(order.begin(), order.begin() + most, order.begin() + bank.tones(),
+                    [&](int a, int b) { return power(a) > power(b); });
+  Fit fit;
+  ToneSet set;
+  for (int n = 1; n <= most; ++n) {
+    set.insert(order[static_cast<std::size_t>(n - 1)]);
+    std::array<int, kMaxTonesPerCode> tones;
+    for (int tone = 0, c = 0; tone < bank.tones(); ++tone)
+      if (set.contains(tone)) tones[static_cast<std::size_t>(c++)] = tone;
+    SmallMatrix gram(2 * n, 2 * n);
+    fit.amplitudes.resize(2 * n);
+    for (int r = 0; r < n; ++r) {
+      const int row = 2 * tones[static_cast<std::size_t>(r)];
+      fit.amplitudes.segment<2>(2 * r) = projections_.segment<2>(row);
+      for (int c = 0; c < n; ++c)
+        gram.block<2, 2>(2 * r, 2 * c) = bank.gram().block<2, 2>(row, 2 * tones[static_cast<std::size_t>(c)]);
+    }
+    gram.ldlt().solveInPlace(fit.amplitudes);
+
+    TonePowers powers(bank.tones());
+    for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
+      if (set.contains(tone)) {
+        powers[tone] = fit.amplitudes.segment<2>(2 * c++).squaredNorm() - noise_power;
+        continue;
+      }
+      Eigen::Vector2f left = projections_.segment<2>(2 * tone);
+      for (int k = 0; k < n; ++k)
+        left -= bank.gram().block<2, 2>(2 * tone, 2 * tones[static_cast<std::size_t>(k)]) *
+                fit.amplitudes.segment<2>(2 * k);
+      powers[tone] = left.squaredNorm() - noise_power;
+    }
+    fit.code = decide_code(powers, params_.code);
+    if (fit.code == set) return fit;
+  }
+  fit.code = ToneSet();
+  return fit;
+}
+
+CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
+  const BlobTrack::Series& flux = track.flux();
+  const auto frames = static_cast<int>(flux.size());
+  const float flux_variance = track.filter().flux_variance();
+  projections_.noalias() = bank.basis() * flux.matrix();
+
+  Reading reading;
+  const Fit fit = fit_code(bank, 2 * static_cast<float>(dark_variance) * flux_variance);
+  reading.code = fit.code;
+  wave_.setZero();
+  float weakest = std::numeric_limits<float>::max();
+  for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
+    if (!fit.code.contains(tone)) continue;
+    wave_ += fit.amplitudes[c] * bank.basis().row(2 * tone).transpose().array() +
+             fit.amplitudes[c + 1] * bank.basis().row(2 * tone + 1).transpose().array();
+    reading.sent += fit.amplitudes.segment<2>(c).dot(projections_.segment<2>(2 * tone));
+    weakest = std::min(weakest, fit.amplitudes.segment<2>(c).squaredNorm());
+    ++reading.tones;
+    c += 2;
+  }
+  reading.mean = flux.mean();
+  reading.energy = (flux - reading.mean).square().sum();
+
+  // What neither code nor place explains is noise; a blob that is not a code has only its place to go by.
+  double residual = 0;
+  int freedom = 0;
+  if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
+    residual += std::max(0.0f, reading.energy - reading.sent) / flux_variance;
+    freedom += std::max(0, frames - 1 - 2 * reading.tones);
+  }
+  if (track.path().still()) {
+    const float square = flux.square().sum();
+    residual += (offset_residual(flux, track.shift_u(), square) + offset_residual(flux, track.shift_v(), square)) /
+                track.filter().shift_variance();
+    freedom += 2 * (frames - 1);
+  }
+  reading.pixel_variance = freedom > 0 ? residual / freedom : dark_variance;
+  const float noise = static_cast<float>(std::max(dark_variance, reading.pixel_variance)) * flux_variance;
+  reading.weakest_over_noise = weakest / noise;
+  reading.explained = reading.sent >= params_.min_explained * (reading.energy - static_cast<float>(frames - 1) * noise);
+  return reading;
+}
+
+void CodeReader::learn(BlobTrack& track, const ToneBank& bank, double dark_variance) {
+  const Reading reading = read_window(track, bank, dark_variance);
+  track.learn_noise(reading.pixel_variance);
+  if (!reading.code.empty()) refine_centre(track, reading);
+}
+
+CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                          double dark_variance) {
+  using Columns = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
+  const int columns = 1 + 2 * track.code.size();
+  SmallMatrix normal = SmallMatrix::Zero(columns, columns);
+  Columns right = Columns::Zero(columns), row(columns);
+  const auto fill = [&](int slot) {
+    int c = 0;
+    row[c++] = 1;
+    for (int k = 0; k < bank.tones(); ++k) {
+      if (!track.code.contains(k)) continue;
+      row[c++] = bank.waves()(2 * k, slot);
+      row[c++] = bank.waves()(2 * k + 1, slot);
+    }
+  };
+  float mean = 0;
+  for (int age = 0; age < track.frames(); ++age) {
+    const int slot = window.slot(age);
+    fill(slot);
+    normal += row * row.transpose();
+    right += row * track.flux()[slot];
+    mean += track.flux()[slot] / static_cast<float>(track.frames());
+  }
+  const Columns x = normal.ldlt().solve(right);
+
+  float energy = 0, left = 0;
+  wave_.setZero();
+  for (int age = 0; age < track.frames(); ++age) {
+    const int slot = window.slot(age);
+    fill(slot);
+    const float flux = track.flux()[slot], model = row.dot(x);
+    wave_[slot] = model - x[0];
+    energy += (flux - mean) * (flux - mean);
+    left += (flux - model) * (flux - model);
+  }
+  Reading reading;
+  reading.code = track.code;
+  reading.tones = track.code.size();
+  reading.mean = x[0];
+  const float flux_variance = track.filter().flux_variance();
+  reading.pixel_variance = left / static_cast<float>(std::max(1, track.frames() - columns)) / flux_variance;
+  const float noise = static_cast<float>(std::max(dark_variance, reading.pixel_variance)) * flux_variance;
+  float weakest = std::numeric_limits<float>::max();
+  for (int c = 1; c < columns; c += 2)
+    weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
+  reading.weakest_over_noise = weakest / noise;
+  reading.explained = left <= (1 - params_.min_explained) * energy + static_cast<float>(track.frames()) * noise;
+  return reading;
+}
+
+bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading,
+                          double dark_variance) const {
+  constexpr float kDarkShare = 0.3f;  ///< of the light that is expected
+  // An on-off beacon is farther from its tone than one that is dimmed.
+  const float limit = (reading.tones == 1 ? 2.5f : 0.7f) * reading.mean;
+  const float sigma = std::sqrt(static_cast<float>(dark_variance) * track.filter().flux_variance());
+  float missing = 0;
+  for (int age = 0; age < track.frames(); ++age) {
+    const int slot = window.slot(age);
+    const float expected = reading.mean + wave_[slot], flux = track.flux()[slot];
+    if (expected < std::max(kDarkShare * reading.mean, 5 * sigma)) continue;  // it is dark by itself
+    if (flux > kDarkShare * expected) return false;
+    missing += expected;
+    if (missing > limit) return true;
+  }
+  return false;
+}
+
+void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
+  struct Estimate {
+    Eigen::Vector2d offset;
+    double variance;
+  };
+  const double shift_variance = std::max(reading.pixel_variance, 1e-9) * track.filter().shift_variance();
+  // Shot noise makes bright frames noisier: half of the light counts like the peak.
+  const float shot = 0.5f * track.shape().shot;
+  const auto estimate = [&](const auto& light) {
+    weights_ = light / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
+    const float information = (weights_ * light).sum();
+    const Eigen::Vector2f offset =
+        Eigen::Vector2f((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information;
+    // From the residuals themselves, each frame with its own noise (White, with the jackknife's correction).
+    const float square = (weights_.square() * ((track.shift_u() - offset.x() * light).square() +
+                                               (track.shift_v() - offset.y() * light).square()))
+                             .sum();
+    const auto frames = static_cast<float>(weights_.size());
+    return Estimate{offset.cast<double>(), 0.5 * square / (information * information) * frames / (frames - 2)};
+  };
+  // All light says most. What else shines beside the blob, steadily, pulls it; the code's part alone is not pulled.
+  const bool bright = reading.mean * reading.mean > 36 * shift_variance;
+  Estimate best = bright ? estimate(track.flux()) : estimate((reading.mean + wave_).max(0.0f));
+  const Estimate coded = estimate(wave_);
+  constexpr double kPulledPx = 0.005, kPulledSigmas2 = 40;
+  if ((coded.offset - best.offset).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * coded.variance)
+    best = coded;
+  track.path().correct(track.anchor() + best.offset, best.variance);
+}
+
+std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                         double power_threshold, double dark_variance) {
+  const bool whole = track.frames() == window.capacity();
+  if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity())) return std::nullopt;
+  const Reading reading =
+      whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
+  if (whole) track.learn_noise(reading.pixel_variance);
+  if (reading.code.empty() || !reading.explained) return std::nullopt;
+  // Before the test of power: what has gone leaves a residual that looks like noise.
+  if (reading.code == track.code && has_gone(track, window, reading, dark_variance)) {
+    track.hide();
+    return std::nullopt;
+  }
+  if (reading.weakest_over_noise < power_threshold) return std::nullopt;
+  if (whole) {
+    track.code = reading.code;
+    track.hidden = false;
+    if (track.path().still()) refine_centre(track, reading);
+  }
+  track.confirm();
+  if (track.path().variance() > kMaxCentreSigmaPx * kMaxCentreSigmaPx) return std::nullopt;
+
+  Sighting sighting;
+  sighting.pixel = track.path().pixel();
+  const double model_sigma_px = kModelShare * static_cast<double>(track.shape().sigma_px);
+  sighting.covariance = Eigen::Matrix2d::Identity() * (track.path().variance() + model_sigma_px * model_sigma_px);
+  sighting.tones = reading.code;
+  sighting.snr_db = 10.0 * std::log10(reading.weakest_over_noise / 2.0);
+  sighting.saturated = track.saturated();
+  return sighting;
+}
+
+}  // namespace lodestar

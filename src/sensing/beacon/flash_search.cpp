@@ -1,0 +1,110 @@
+#include "lodestar/sensing/beacon/flash_search.hpp"
+
+#include <cmath>
+
+#include "lodestar/sensing/beacon/spot_filter.hpp"
+
+namespace lodestar {
+namespace {
+
+/// Light of the 4 x 4 pixels around a cell: most of a spot's, wherever in the cell or on its corner it is.
+constexpr int kBlockSide = 4, kBlockPixels = kBlockSide * kBlockSide;
+template <class Pixel>
+float block_sum(const Image& image, const Eigen::Vector2i& pixel) {
+  int sum = 0;
+  for (int v = 0; v < kBlockSide; ++v) {
+    const Pixel* row = image.row<Pixel>(pixel.y() - 1 + v) + pixel.x() - 1;
+    for (int u = 0; u < kBlockSide; ++u) sum += row[u];
+  }
+  return static_cast<float>(sum);
+}
+
+/// Centre of what clips around `pixel` in any frame: the light of a saturated spot changes on its rim only.
+std::optional<Eigen::Vector2d> clipped_core(const FrameWindow& window, const Eigen::Vector2i& pixel,
+                                            float white_level) {
+  std::optional<Eigen::Vector2d> core;
+  Eigen::Vector2i middle = pixel;
+  for (int step = 0; step < 2; ++step) {
+    Patch frame;
+    Patch::Array clipped = Patch::Array::Zero();
+    for (int slot = 0; slot < window.capacity(); ++slot) {
+      if (!frame.read(window.at(slot), middle)) return std::nullopt;
+      clipped += (frame.values >= white_level).cast<float>();
+    }
+    if (clipped.maxCoeff() == 0) return core;
+    Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+    for (int i = 0; i < Patch::kPixels; ++i)
+      moment += static_cast<double>(clipped[i]) *
+                Eigen::Vector2d(i % Patch::kSide - Patch::kHalf, i / Patch::kSide - Patch::kHalf);
+    core = middle.cast<double>() + moment / static_cast<double>(clipped.sum());
+    middle = core->array().round().matrix().cast<int>();
+  }
+  return core;
+}
+
+}  // namespace
+
+FlashSearch::FlashSearch(int slots) : light_(slots), wave_(slots) {}
+
+std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, const ToneBank& bank,
+                                                    const Eigen::Vector2i& pixel, double power_threshold,
+                                                    const PixelNoise& noise) {
+  constexpr double kBlockShare = 0.4, kSpotShare = 0.6;
+  for (int slot = 0; slot < window.capacity(); ++slot) {
+    const Image& image = window.at(slot);
+    light_[slot] = image.bits == 8 ? block_sum<std::uint8_t>(image, pixel) : block_sum<std::uint16_t>(image, pixel);
+  }
+  powers_.noalias() = bank.basis() * light_;
+  Eigen::Index tone = 0;
+  float strongest = 0;
+  for (Eigen::Index k = 0; k < bank.tones(); ++k) {
+    const float power = powers_.segment<2>(2 * k).squaredNorm();
+    if (power > strongest) {
+      strongest = power;
+      tone = k;
+    }
+  }
+  if (strongest < kBlockShare * power_threshold * kBlockPixels * noise.dark_variance) return std::nullopt;
+
+  constexpr double kCoreVariance = 0.25;
+  if (const auto core = clipped_core(window, pixel, noise.white_level)) return Flash{*core, kCoreVariance};
+
+  // The tone's amplitude in each pixel, along the cell's phase: an image of this light alone.
+  wave_.noalias() = bank.basis().middleRows(2 * tone, 2).transpose() * powers_.segment<2>(2 * tone);
+  wave_ /= std::sqrt(strongest);
+  Patch amplitude, frame;
+  Eigen::Vector2i middle = pixel;
+  Eigen::Vector2d place = pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
+  SpotFilter filter;
+  std::optional<Flash> found;
+  for (int step = 0; step < 6; ++step) {
+    const Eigen::Vector2i nearest = place.array().round().matrix().cast<int>();
+    if (step == 0 || nearest != middle) {
+      middle = nearest;
+      amplitude.values.setZero();
+      for (int slot = 0; slot < window.capacity(); ++slot) {
+        if (!frame.read(window.at(slot), middle)) return std::nullopt;
+        amplitude.values += wave_[slot] * frame.values;
+      }
+      amplitude.centre = middle;
+    }
+    if (step == 0) {
+      place = amplitude.centroid();
+      if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;
+      continue;
+    }
+    filter.design(place - middle.cast<double>(), SpotShape());
+    const SpotLight light = filter.read(amplitude);
+    if (light.flux <= 0 ||
+        light.flux * light.flux < kSpotShare * power_threshold * noise.dark_variance * filter.flux_variance())
+      return std::nullopt;
+    const Eigen::Vector2d shift = (light.shift / light.flux).cast<double>();
+    place += shift * std::min(1.0, 0.7 / std::max(1e-9, shift.norm()));
+    if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;
+    found = Flash{place, noise.dark_variance * filter.shift_variance() / (light.flux * light.flux)};
+    if (shift.norm() < 0.02) break;
+  }
+  return found;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,173 @@
+#pragma once
+
+#include <map>
+
+#include "support/beacon/grid.hpp"
+
+namespace lodestar::test {
+
+enum class Lamps {
+  kSteady,
+  kFlickering,     ///< with the mains, 2 to 100 % depth, sine or rectified
+  kTubes,          ///< 1.5 m long, flickering
+  kWarningLights,  ///< of trucks that come the other way, 1 to 3 Hz, on-off or turning
+  kReflections,    ///< of lamps in ribbed cladding: they twinkle as the truck passes the ribs
+  kSun,            ///< the same of the sun, which goes along with the truck
+};
+inline const std::map<Lamps, const char*> kAllLamps = {{Lamps::kSteady, "steady"},
+                                                       {Lamps::kFlickering, "flickering"},
+                                                       {Lamps::kTubes, "tubes"},
+                                                       {Lamps::kWarningLights, "warning lights"},
+                                                       {Lamps::kReflections, "reflections of lamps"},
+                                                       {Lamps::kSun, "sun"}};
+
+/// Drives under lamps of one kind without a single beacon: what is sighted is a mistake. A straight aisle, the ceiling
+/// 6 m above the camera.
+struct HallOfLamps {
+  Lamps lamps = Lamps::kSteady;
+  double speed_m_s = 2;
+  double mains_hz = 50;
+  bool motion_input = true;
+
+  long frames = 0, sightings = 0, lamps_in_view = 0;
+  std::map<ToneSet, long> codes;
+
+  /// Sightings in a code that a site may give a beacon: two tones, none a multiple of the other (site_hall.yaml).
+  long named() const {
+    long count = 0;
+    for (const auto& [code, times] : codes) {
+      if (code.size() != 2) continue;
+      const double low_hz = kPlanTones_hz[static_cast<std::size_t>(code.indices()[0])];
+      const double high_hz = kPlanTones_hz[static_cast<std::size_t>(code.indices()[1])];
+      count += std::fmod(high_hz, low_hz) != 0 ? times : 0;
+    }
+    return count;
+  }
+
+  void run(double duration_s, unsigned seed) {
+    BlobScene scene = vga_scene(seed);
+    scene.electrons_per_level = 20;
+    scene.exposure_s = 0.002;
+    const auto lens = fisheye(640, 480, 230);
+    const auto camera = CameraModel::create(lens).value();
+    Noise& random = scene.random();
+    const double turn_rad = random.uniform(0.02, 0.1), turn_hz = random.uniform(0.05, 0.3);
+    const auto yaw_rad = [=](double t) { return turn_rad * std::sin(2 * kPi * turn_hz * t); };
+    const auto seen_from = [=](double t, const Eigen::Vector3d& place_map) -> Eigen::Vector2d {
+      const Eigen::Vector3d ray(place_map.x() - speed_m_s * t, place_map.y(), place_map.z());
+      if (std::abs(ray.x()) > 25) return Eigen::Vector2d::Constant(-1e9);
+      const auto projection = camera->project(so3_exp({0, 0, -yaw_rad(t)}) * ray);
+      return projection ? projection->pixel : Eigen::Vector2d::Constant(-1e9);
+    };
+    hang(speed_m_s * duration_s, seen_from, scene);
+
+    BeaconDetector detector = detector_for(scene, plan_params(), lens);
+    CameraMotion motion;
+    const auto count = static_cast<long>(duration_s * kPlanRate_hz);
+    for (long i = 0; i < count; ++i) {
+      const double t = static_cast<double>(i) / kPlanRate_hz;
+      const Image image = scene.render(t);
+      if (motion_input) {
+        const double yaw_rate = (yaw_rad(t + 1e-3) - yaw_rad(t - 1e-3)) / 2e-3;
+        const Eigen::Vector2d velocity = speed_m_s * Eigen::Vector2d(std::cos(yaw_rad(t)), -std::sin(yaw_rad(t)));
+        motion.add_odometry({image.stamp, velocity, yaw_rate, Eigen::Vector3d::Zero(), 0});
+        motion.add_imu({image.stamp, {0, 0, yaw_rate}, {0, 0, 9.81}});
+      }
+      ++frames;
+      for (const Sighting& sighting : detect(detector, image, motion)) {
+        ++sightings;
+        ++codes[sighting.tones];
+      }
+      if (i % 60 == 0) {
+        for (const Light& light : scene.lights) lamps_in_view += camera->contains(light.pixel(t)) ? 60 : 0;
+      }
+    }
+  }
+
+ private:
+  using SeenFrom = std::function<Eigen::Vector2d(double, const Eigen::Vector3d&)>;
+
+  std::function<double(double)> mains_flicker(double mean, double depth, Noise& random) const {
+    const double hz = 2 * mains_hz * (1 + random.uniform(-0.002, 0.002)), phase = random.uniform(0, 1);
+    const bool rectified = random.uniform(0, 1) < 0.3;
+    return [=](double t) {
+      const double wave = rectified ? 2.27 * std::pow(std::abs(std::sin(kPi * (hz * t + phase))), 3) - 0.96
+                                    : std::cos(2 * kPi * (hz * t + phase));
+      return mean * std::max(0.0, 1 + depth * wave);
+    };
+  }
+
+  void hang(double length_m, const SeenFrom& seen_from, BlobScene& scene) const {
+    Noise& random = scene.random();
+    if (lamps == Lamps::kWarningLights) {
+      for (double x = 0; x < 2 * length_m + 20; x += 5) meet_truck(x, seen_from, scene);
+    } else if (lamps == Lamps::kReflections || lamps == Lamps::kSun) {
+      const double end_m = lamps == Lamps::kSun ? 10 : length_m + 10;
+      for (double x = -10; x < end_m; x += 4) shine_in_cladding(x, seen_from, scene);
+    } else {
+      for (double x = -16; x < length_m + 16; x += 4) {
+        for (int row = -2; row <= 2; ++row) {
+          const double y = 3.5 * row + random.uniform(-0.3, 0.3);
+          hang_lamp({x + random.uniform(-0.5, 0.5), y, 6 + random.uniform(-0.5, 0.5)}, seen_from, scene);
+        }
+      }
+    }
+  }
+
+  void hang_lamp(const Eigen::Vector3d& place_map, const SeenFrom& seen_from, BlobScene& scene) const {
+    Noise& random = scene.random();
+    const auto where = [=](double t) { return seen_from(t, place_map); };
+    const double depth = random.log_uniform(0.02, 1);
+    if (lamps == Lamps::kTubes) {
+      const Eigen::Vector3d tube = random.uniform(0, 1) < 0.5 ? Eigen::Vector3d(1.5, 0, 0) : Eigen::Vector3d(0, 1.5, 0);
+      scene.lights.push_back({where, mains_flicker(random.log_uniform(500, 20000), std::min(depth, 0.6), random),
+                              [=](double t) { return seen_from(t, place_map + tube); }, 1.3});
+      return;
+    }
+    const double sigma_px = random.log_uniform(0.9, 5);  // from a far LED to a bay lamp of 0.4 m
+    const double light = random.log_uniform(5, 500) * 2 * kPi * sigma_px * sigma_px;
+    const auto waveform = lamps == Lamps::kSteady ? steady(light) : mains_flicker(light, depth, random);
+    scene.lights.push_back({where, waveform, {}, sigma_px});
+  }
+
+  /// A warning light 1 to 3 m above the camera.
+  void meet_truck(double x, const SeenFrom& seen_from, BlobScene& scene) const {
+    Noise& random = scene.random();
+    const double rate_hz = random.uniform(1, 3), phase = random.uniform(0, 1), duty = random.log_uniform(0.05, 0.5);
+    const double light = random.log_uniform(100, 5000), speed = random.uniform(0, 2);
+    const double y = (random.uniform(0, 1) < 0.5 ? -1 : 1) * random.uniform(1.5, 4), z = random.uniform(1, 3);
+    const auto where = [=](double t) { return seen_from(t, {x - speed * t, y, z}); };
+    const auto turning = [=](double t) {
+      return light * 3 * std::pow(std::max(0.0, std::cos(2 * kPi * (rate_hz * t + phase))), 8);
+    };
+    const bool turns = random.uniform(0, 1) < 0.5;
+    if (turns) {
+      scene.lights.push_back({where, turning});
+    } else {
+      scene.lights.push_back({where, blinking(light, rate_hz, phase, duty)});
+    }
+  }
+
+  /// A lamp or the sun mirrored in a ribbed wall to one side: an image behind the wall that each rib shows for a
+  /// moment, no two ribs equally bright.
+  void shine_in_cladding(double x, const SeenFrom& seen_from, BlobScene& scene) const {
+    Noise& random = scene.random();
+    const double side = random.uniform(0, 1) < 0.5 ? -1 : 1;
+    const Eigen::Vector3d mirrored(x, side * random.uniform(6, 9), random.uniform(3, 6));
+    const double pitch_m = random.uniform(0.15, 0.4), phase = random.uniform(0, 1), speed = speed_m_s;
+    const double light = random.log_uniform(100, 5000), sharpness = random.uniform(1, 6);
+    const double share = lamps == Lamps::kSun ? 1.0 : 0.5;  // the wall is half way to the lamp's image
+    const std::uint64_t wall = random.bits();
+    const auto brightness = [=](double t) {
+      const double ribs = share * speed * t / pitch_m + phase;
+      const double of_rib = Noise(wall + static_cast<std::uint64_t>(std::floor(ribs))).log_uniform(0.4, 1);
+      return light * of_rib * std::pow(0.5 - 0.5 * std::cos(2 * kPi * ribs), sharpness);
+    };
+    const bool sun = lamps == Lamps::kSun;
+    scene.lights.push_back(
+        {[=](double t) { return seen_from(t, sun ? mirrored + Eigen::Vector3d(speed * t, 0, 0) : mirrored); },
+         brightness});
+  }
+};
+
+}  // namespace lodestar::test
