@@ -82,6 +82,18 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
   return fit;
 }
 
+float CodeReader::trimmed_residual(const BlobTrack::Series& flux, float mean) {
+  // While a beacon sends its frame its tones pause (link page, section 2): the farthest frames are no measure of noise.
+  // Of Gaussian squares, the nearest six sevenths hold 0.486.
+  constexpr int kTrimmed = 7;
+  constexpr float kLeft = 0.486f;
+  weights_ = (flux - mean - wave_).square();
+  const Eigen::Index kept = flux.size() - flux.size() / kTrimmed;
+  if (kept == flux.size()) return weights_.sum();
+  std::nth_element(weights_.data(), weights_.data() + kept, weights_.data() + weights_.size());
+  return weights_.head(kept).sum() / kLeft;
+}
+
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<int>(flux.size());
@@ -109,7 +121,7 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   double residual = 0;
   int freedom = 0;
   if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
-    residual += std::max(0.0f, reading.energy - reading.sent) / flux_variance;
+    residual += trimmed_residual(flux, reading.mean) / flux_variance;
     freedom += std::max(0, frames - 1 - 2 * reading.tones);
   }
   if (track.path().still()) {
