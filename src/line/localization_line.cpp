@@ -13,6 +13,7 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_ra
   params.detector.tone_table_hz = site.tone_table_hz;
   params.detector.window_frames =
       vehicle.window_frames.value_or(window_frames(site.tone_table_hz, vehicle.camera_rate_hz.value_or(frame_rate_hz)));
+  params.detector.white_level = vehicle.camera_white_level;
 
   params.namer.require_announcement = vehicle.has_ir_receiver;
   params.solver.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;

@@ -8,13 +8,13 @@ namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {{"vehicle", false}, {"camera", false}, {"imu", false}, {"odometry", false},
-                                        {"infrared", false}};
+const std::vector<YamlKey> kFileKeys = {
+    {"vehicle", false}, {"camera", false}, {"imu", false}, {"odometry", false}, {"infrared", false}};
 const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
 const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
 const std::vector<YamlKey> kCameraKeys = {
-    {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false}, {"window_frames", false},
-    {"time_offset_s", false}, {"calibration_sigma_px", false}, {"mains_hz", false}};
+    {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false},  {"window_frames", false},
+    {"time_offset_s", false}, {"calibration_sigma_px", false}, {"mains_hz", false}, {"white_level", false}};
 const std::vector<YamlKey> kMountKeys = {{"xyz_m", true}, {"rpy_deg", true}};
 const std::vector<YamlKey> kImuKeys = {{"mount", false},
                                        {"gyro_noise_deg_s", false},
@@ -59,6 +59,7 @@ void read_camera(const YamlMap& map, Vehicle& vehicle) {
     vehicle.window_frames = static_cast<int>(*frames);
   read(map, "time_offset_s", within(-1, 1), vehicle.camera_time_offset_s);
   read(map, "calibration_sigma_px", within(0, 20), vehicle.calibration_sigma_px);
+  vehicle.camera_white_level = map.number("white_level", within(1, 65535));
   read_mains(map, vehicle.mains_hz);
 }
 

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "lodestar/base/common/angle.hpp"
 
 namespace lodestar {
 namespace {
 
-constexpr double kMergePx = 3.0;       ///< two sightings closer than this are one
+constexpr double kMergePx = 3.0;  ///< two sightings closer than this are one
+constexpr double kLongestPause_s = 3.0;
 constexpr double kStillImagePx = 0.1;  ///< the image stands when its centre moves less from frame to frame
 
 }  // namespace
@@ -40,7 +42,12 @@ BeaconDetector::BeaconDetector(const BeaconDetectorParams& params)
       scan_(params.window_frames),
       tracker_(params.window_frames, params.max_blobs),
       search_(params.window_frames),
-      reader_(params.reader, params.window_frames) {}
+      reader_(params.reader, params.window_frames) {
+  const std::size_t tones = params.tone_table_hz.size();
+  if (params.window_frames < 4) throw std::invalid_argument("a window has at least 4 frames");
+  if (tones < 1 || tones > ToneSet::kMaxTones) throw std::invalid_argument("a tone table has 1 to 32 tones");
+  if (!(params.false_alarms_per_hour > 0)) throw std::invalid_argument("false alarms an hour must be above 0");
+}
 
 void BeaconDetector::set_camera(std::shared_ptr<const CameraModel> camera) {
   camera_ = std::move(camera);
@@ -58,7 +65,7 @@ void BeaconDetector::reset() {
 
 std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
   if (!camera_) return FrameDrop::kNoCamera;
-  if (!image.data || image.width_px <= 0 || image.height_px <= 0) return FrameDrop::kNoPixels;
+  if (!image.data || image.width_px < Patch::kSide || image.height_px < Patch::kSide) return FrameDrop::kNoPixels;
   if (image.bits != 8 && image.bits != 16) return FrameDrop::kFormat;
   if (image.stride_bytes < static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.bits / 8)) {
     return FrameDrop::kFormat;
@@ -78,6 +85,7 @@ bool BeaconDetector::breaks_window(const Image& image) const {
   const Image& before = window_.at(window_.newest());
   if (before.bits != image.bits) return true;
   // A pause of half a window leaves the tones within it hardly to be told apart.
+  if (seconds(image.stamp - before.stamp) > kLongestPause_s) return true;
   return window_.size() > 2 && seconds(image.stamp - before.stamp) > 0.5 * params_.window_frames * window_.period_s();
 }
 
@@ -92,9 +100,15 @@ double BeaconDetector::power_threshold(const Image& image) const {
 
 bool BeaconDetector::image_moves() const {
   const auto& lens = camera_->intrinsics();
-  const Eigen::Vector2d axis(lens.cx_px, lens.cy_px);
-  const auto before = motion_.pixel_from(axis, window_.T_before_now(window_.newest()));
-  return !before || (*before - axis).norm() > kStillImagePx;
+  const RigidTransform& T_before_now = window_.T_before_now(window_.newest());
+  if (T_before_now.matrix().isIdentity(0)) return false;
+  // The middle does not move when the camera turns about its axis, nor does it tell how the borders do.
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const Eigen::Vector2d pixel(share * lens.width_px, 0.5 * lens.height_px);
+    const auto before = motion_.pixel_from(pixel, T_before_now);
+    if (before && (*before - pixel).norm() > kStillImagePx) return true;
+  }
+  return false;
 }
 
 void BeaconDetector::choose_lags() {

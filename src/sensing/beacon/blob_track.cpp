@@ -43,7 +43,7 @@ void BlobTrack::restart(const PathFilter& path) {
   clipped_radius_.setZero();
   pixel_variance_ = 0;
   newest_flux_ = 0;
-  frames_ = age_ = hits_ = unseen_ = 0;
+  frames_ = hits_ = unseen_ = 0;
 }
 
 double BlobTrack::gate_px() const { return std::clamp(4.0 * std::sqrt(path_.variance()), kMinGatePx, kMaxGatePx); }
@@ -79,7 +79,6 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   const Image& image = window.at(window.newest());
   const double variance = std::max(noise.dark_variance, pixel_variance_);
   const double gate = gate_px();
-  ++age_;
 
   const auto read_at = [&](const Eigen::Vector2d& aimed) {
     aim(aimed);

@@ -31,9 +31,7 @@ void plain(const ChangeRow<Pixel, Lane>& row, const ChangeUnits& units) {
 
 }  // namespace
 
-ChangeKernels plain_change_kernels() {
-  return {plain<std::uint8_t, std::int16_t>, plain<std::uint16_t, std::int32_t>, "plain"};
-}
+ChangeKernels plain_change_kernels() { return {plain<std::uint8_t, std::int16_t>, plain<std::uint16_t, std::int32_t>}; }
 
 #ifdef LODESTAR_XSIMD
 ChangeKernels avx512_change_kernels();

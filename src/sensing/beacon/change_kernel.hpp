@@ -26,7 +26,7 @@ struct ChangeUnits {
   std::int32_t risen;       ///< a difference beyond this is light that has come
   int forget_bits;
 
-  static constexpr int kShift = 4;
+  static constexpr int kShift = 7;
 };
 
 template <class Pixel, class Lane>
@@ -35,7 +35,6 @@ using ChangeKernel = void (*)(const ChangeRow<Pixel, Lane>&, const ChangeUnits&)
 struct ChangeKernels {
   ChangeKernel<std::uint8_t, std::int16_t> narrow;
   ChangeKernel<std::uint16_t, std::int32_t> wide;
-  const char* name;
 };
 
 /// Without vectors: what all others must equal.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "change_kernel.hpp"
 
@@ -15,8 +14,9 @@ constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
 constexpr float kFirstLimit = 3.5f;  ///< sigmas of a cell's energy
 constexpr float kLeastLimit = 2.0f;
-constexpr float kLimitStep = 0.05f;  ///< what one settled cell without a find adds
-constexpr int kNoiseSample = 256;    ///< cells a frame
+constexpr float kExcessForgets = 0.001f;  ///< a frame, of what a passing disturbance has raised
+constexpr float kLimitStep = 0.05f;       ///< what one settled cell without a find adds
+constexpr int kNoiseSample = 256;         ///< cells a frame
 constexpr double kNoiseForgets = 1.0 / 16;
 constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
 
@@ -57,15 +57,6 @@ void ChangeScan::set_lags(int first, int second) {
 }
 
 void ChangeScan::clear() { frames_ = 0; }
-
-std::size_t ChangeScan::bytes() const {
-  const auto planes = [](const auto& p) {
-    std::size_t lanes = p.energy.capacity() + p.limit.capacity();
-    for (const auto& cells : p.cells) lanes += cells.capacity();
-    return lanes * sizeof(p.energy[0]);
-  };
-  return planes(narrow_) + planes(wide_);
-}
 
 double ChangeScan::pixel_variance() const { return std::max(cell_variance_, kLeastCellVariance) / 8; }
 
@@ -113,13 +104,14 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
   ChangeUnits units;
   units.reach = std::max(1, static_cast<int>(std::ceil(kReachSigmas * sigma)));
   units.multiplier = static_cast<int>(std::lround((1 << ChangeUnits::kShift) * clip_ / (kReachSigmas * sigma)));
-  units.multiplier = std::clamp(units.multiplier, 1, (clip_ << ChangeUnits::kShift) / units.reach);
+  units.multiplier = std::clamp(units.multiplier, 1, std::max(1, (clip_ << ChangeUnits::kShift) / units.reach));
   units.risen = static_cast<int>(kRisenSigmas * sigma);
   units.forget_bits = forget_bits_;
   // Each tile's limit sinks by as much in a frame as its share of the budget raises it.
   const float sink = kLimitStep * static_cast<float>(budget_) / static_cast<float>(tile_limit_.size());
   for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
-    tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink);
+    const float excess = std::max(0.0f, tile_limit_[i] - kFirstLimit);
+    tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink - kExcessForgets * excess);
     planes.limit[i] = static_cast<Lane>(std::min(32000.0f, energy_mean_ + tile_limit_[i] * energy_sigma_));
   }
 
@@ -155,12 +147,12 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
     std::fill(planes.energy.begin(), planes.energy.end(), Lane{0});
     return;
   }
-  measure_noise(planes, now, before);
+  measure_noise(now, before);
   collect(planes, now, before);
 }
 
 template <class Lane>
-void ChangeScan::measure_noise(const Planes<Lane>&, const Plane<Lane>& now, const Plane<Lane>& before) {
+void ChangeScan::measure_noise(const Plane<Lane>& now, const Plane<Lane>& before) {
   const auto cells = static_cast<std::size_t>(columns_ * rows_);
   const auto next_square = [&] {
     constexpr std::size_t kStride = 7919;  // a prime: all over the image

@@ -18,6 +18,7 @@ using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMax
 
 /// Residual of flux * offset = shift with the best offset.
 float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& shift, float flux_square) {
+  if (flux_square <= 0) return shift.square().sum();
   const float cross = (flux * shift).sum();
   return shift.square().sum() - cross * cross / flux_square;
 }
@@ -216,6 +217,7 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
     Eigen::Vector2d offset;
     double variance;
   };
+  if (reading.mean <= 0) return;  // a dark spot is no light
   const double shift_variance = std::max(reading.pixel_variance, 1e-9) * track.filter().shift_variance();
   // Shot noise makes bright frames noisier: half of the light counts like the peak.
   const float shot = 0.5f * track.shape().shot;
@@ -244,7 +246,10 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
 std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                          double power_threshold, double dark_variance) {
   const bool whole = track.frames() == window.capacity();
-  if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity())) return std::nullopt;
+  constexpr int kLeastFreedom = 4;  // of a fit that means something
+  const int freedom = track.frames() - 1 - 2 * track.code.size();
+  if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity() && freedom >= kLeastFreedom))
+    return std::nullopt;
   const Reading reading =
       whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
   if (whole) track.learn_noise(reading.pixel_variance);

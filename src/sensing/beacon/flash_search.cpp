@@ -1,5 +1,6 @@
 #include "lodestar/sensing/beacon/flash_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lodestar/sensing/beacon/spot_filter.hpp"

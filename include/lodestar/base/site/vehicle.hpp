@@ -18,6 +18,7 @@ struct Vehicle {
   double camera_mount_sigma_rad = 0.002;        ///< of the mount's roll, pitch, yaw
   std::optional<int> window_frames;             ///< empty: window_frames(tone table, rate)
   std::optional<double> camera_rate_hz;         ///< empty: from the stamps
+  std::optional<double> camera_white_level;     ///< grey level at which pixels clip; empty: the format's largest
   double camera_time_offset_s = 0;              ///< added to each image's stamp
   bool has_ir_receiver = true;                  ///< off: blobs are named by their code though nothing was announced
   double mains_hz = 50;                         ///< 50 or 60

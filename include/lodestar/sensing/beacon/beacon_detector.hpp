@@ -32,7 +32,7 @@ struct BeaconDetectorParams {
 /// Why a frame led to no result.
 enum class FrameDrop {
   kNoCamera,   ///< no calibration yet
-  kNoPixels,   ///< no data, or a size of zero
+  kNoPixels,   ///< no data, or smaller than one blob's patch
   kFormat,     ///< neither 8 nor 16 bits, or a stride below the width
   kSize,       ///< not the size of the calibration
   kDuplicate,  ///< the stamp of the frame before
@@ -49,6 +49,7 @@ const char* name(FrameDrop reason);
 /// light in the window gives the powers, these its code (CodeReader). See docs/math/detector.md.
 class BeaconDetector {
  public:
+  /// Throws std::invalid_argument: a window below 4 frames, not 1 to 32 tones, no false alarms allowed at all.
   explicit BeaconDetector(const BeaconDetectorParams& params);
 
   /// A new camera forgets the window.
@@ -67,7 +68,6 @@ class BeaconDetector {
 
   const BeaconDetectorParams& params() const { return params_; }
   const DropCounts<FrameDrop>& drops() const { return drops_; }
-  std::size_t tracks() const { return tracker_.size(); }
 
  private:
   std::optional<FrameDrop> fault(const Image& image) const;

@@ -51,7 +51,6 @@ class BlobTrack {
 
   /// The newest frames whose light is known without a gap, at most N.
   int frames() const { return frames_; }
-  int age_frames() const { return age_; }
   int hits() const { return hits_; }
   int unseen_frames() const { return unseen_; }
   float newest_flux() const { return newest_flux_; }
@@ -94,7 +93,7 @@ class BlobTrack {
   std::vector<Eigen::Vector2d> places_;
   double pixel_variance_ = 0;
   float newest_flux_ = 0;
-  int frames_ = 0, age_ = 0, hits_ = 0, unseen_ = 0;
+  int frames_ = 0, hits_ = 0, unseen_ = 0;
 };
 
 }  // namespace lodestar

@@ -50,9 +50,6 @@ class ChangeScan {
   /// of rounding, 1/12.
   double pixel_variance() const;
 
-  /// Bytes of state, for the whole image.
-  std::size_t bytes() const;
-
  private:
   /// Rows begin where cache lines do.
   template <class Lane>
@@ -71,7 +68,7 @@ class ChangeScan {
   template <class Lane>
   void start(const Image& image, Planes<Lane>& planes);
   template <class Lane>
-  void measure_noise(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
+  void measure_noise(const Plane<Lane>& now, const Plane<Lane>& before);
   template <class Lane>
   void collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
   template <class Lane>

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "lodestar/sensing/beacon/blob_track.hpp"
 #include "lodestar/sensing/beacon/frame_window.hpp"

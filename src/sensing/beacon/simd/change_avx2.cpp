@@ -2,6 +2,6 @@
 
 namespace lodestar {
 
-ChangeKernels avx2_change_kernels() { return change_kernels<xsimd::avx2>("AVX2"); }
+ChangeKernels avx2_change_kernels() { return change_kernels<xsimd::avx2>(); }
 
 }  // namespace lodestar

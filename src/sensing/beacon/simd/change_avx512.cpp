@@ -2,6 +2,6 @@
 
 namespace lodestar {
 
-ChangeKernels avx512_change_kernels() { return change_kernels<xsimd::avx512bw>("AVX-512"); }
+ChangeKernels avx512_change_kernels() { return change_kernels<xsimd::avx512bw>(); }
 
 }  // namespace lodestar

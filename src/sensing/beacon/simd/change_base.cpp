@@ -2,6 +2,6 @@
 
 namespace lodestar {
 
-ChangeKernels base_change_kernels() { return change_kernels<xsimd::default_arch>("baseline"); }
+ChangeKernels base_change_kernels() { return change_kernels<xsimd::default_arch>(); }
 
 }  // namespace lodestar

@@ -59,8 +59,8 @@ void change_row(const ChangeRow<Pixel, Lane>& row, const ChangeUnits& units) {
 }
 
 template <class Arch>
-ChangeKernels change_kernels(const char* name) {
-  return {change_row<Arch, std::uint8_t, std::int16_t>, change_row<Arch, std::uint16_t, std::int32_t>, name};
+ChangeKernels change_kernels() {
+  return {change_row<Arch, std::uint8_t, std::int16_t>, change_row<Arch, std::uint16_t, std::int32_t>};
 }
 
 }  // namespace lodestar

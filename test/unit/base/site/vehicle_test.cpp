@@ -15,6 +15,7 @@ camera:
   rate_hz: 60
   window_frames: 45
   time_offset_s: -0.004
+  white_level: 4095
   calibration_sigma_px: 0.2
   mains_hz: 60
 imu:
@@ -44,6 +45,7 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   EXPECT_EQ(vehicle->camera_rate_hz, 60.0);
   EXPECT_EQ(vehicle->window_frames, 45);
   EXPECT_EQ(vehicle->camera_time_offset_s, -0.004);
+  EXPECT_EQ(vehicle->camera_white_level, 4095);
   EXPECT_EQ(vehicle->calibration_sigma_px, 0.2);
   EXPECT_EQ(vehicle->mains_hz, 60);
   EXPECT_NEAR(vehicle->gyro_noise_rad_s, radians(0.1), 1e-15);

@@ -223,7 +223,9 @@ TEST(BeaconDetector, FollowsTheMotionThatOdometryPredictsThoughTheHeightIsWrong)
 TEST(BeaconDetector, DropsWhatItCannotUseByReason) {
   BlobScene scene;
   const CameraMotion standing;
-  BeaconDetector blind{BeaconDetectorParams()};
+  BeaconDetectorParams params;
+  params.tone_table_hz = kTable;
+  BeaconDetector blind(params);
   EXPECT_EQ(blind.process(scene.render(0), standing).error(), FrameDrop::kNoCamera);
 
   auto detector = detector_for(scene);
@@ -246,6 +248,19 @@ TEST(BeaconDetector, DropsWhatItCannotUseByReason) {
   EXPECT_EQ(refuse(wrong), FrameDrop::kSize);
   EXPECT_EQ(detector.drops()[FrameDrop::kDuplicate], 1u);
   EXPECT_EQ(detector.drops().total(), 6u);
+}
+
+TEST(BeaconDetector, RefusesWhatItCannotWorkWith) {
+  BeaconDetectorParams params;
+  EXPECT_THROW(BeaconDetector{params}, std::invalid_argument) << "no tones";
+  params.tone_table_hz.assign(33, 5.0);
+  EXPECT_THROW(BeaconDetector{params}, std::invalid_argument) << "too many";
+  params.tone_table_hz = kTable;
+  params.window_frames = 3;
+  EXPECT_THROW(BeaconDetector{params}, std::invalid_argument) << "no window";
+  params.window_frames = 30;
+  params.false_alarms_per_hour = 0;
+  EXPECT_THROW(BeaconDetector{params}, std::invalid_argument) << "no threshold";
 }
 
 TEST(BeaconDetector, ALongPauseStartsTheWindowAnew) {
