@@ -15,7 +15,6 @@ camera:
   rate_hz: 60
   window_frames: 45
   time_offset_s: -0.004
-  white_level: 4095
   calibration_sigma_px: 0.2
   mains_hz: 60
 imu:
@@ -45,7 +44,6 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   EXPECT_EQ(vehicle->camera_rate_hz, 60.0);
   EXPECT_EQ(vehicle->window_frames, 45);
   EXPECT_EQ(vehicle->camera_time_offset_s, -0.004);
-  EXPECT_EQ(vehicle->camera_white_level, 4095);
   EXPECT_EQ(vehicle->calibration_sigma_px, 0.2);
   EXPECT_EQ(vehicle->mains_hz, 60);
   EXPECT_NEAR(vehicle->gyro_noise_rad_s, radians(0.1), 1e-15);
@@ -55,6 +53,13 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   EXPECT_EQ(vehicle->odometry_velocity_sigma_m_s, 0.05);
   EXPECT_NEAR(vehicle->odometry_yaw_rate_sigma_rad_s, radians(1), 1e-15);
   EXPECT_EQ(vehicle->odometry_scale_sigma, 0.03);
+}
+
+TEST(Vehicle, says_where_its_camera_clips) {
+  const auto vehicle = parse_vehicle("vehicle: {name: t7}\ncamera: {white_level: 4095}\n", "v.yaml");
+  ASSERT_TRUE(vehicle.ok());
+  EXPECT_EQ(vehicle->camera_white_level, 4095);
+  EXPECT_FALSE(parse_vehicle("vehicle: {name: t7}\ncamera: {white_level: 0}\n", "v.yaml").ok());
 }
 
 TEST(Vehicle, what_is_left_out_keeps_its_default) {
