@@ -83,16 +83,22 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
   return fit;
 }
 
-float CodeReader::trimmed_residual(const BlobTrack::Series& flux, float mean) {
-  // While a beacon sends its frame its tones pause (link page, section 2): the farthest frames are no measure of noise.
-  // Of Gaussian squares, the nearest six sevenths hold 0.486.
-  constexpr int kTrimmed = 7;
-  constexpr float kLeft = 0.486f;
-  weights_ = (flux - mean - wave_).square();
-  const Eigen::Index kept = flux.size() - flux.size() / kTrimmed;
-  if (kept == flux.size()) return weights_.sum();
-  std::nth_element(weights_.data(), weights_.data() + kept, weights_.data() + weights_.size());
-  return weights_.head(kept).sum() / kLeft;
+float CodeReader::residual_energy(const BlobTrack::Series& flux, float mean, int& freedom) const {
+  // While a beacon sends its frame its tones pause and its light is the mean (link page, section 2): a frame that shows
+  // the mean where the code says otherwise is no measure of noise.
+  constexpr float kAtMean = 0.1f, kOffMean = 0.25f, kMostPaused = 0.2f;
+  float energy = 0, paused_energy = 0;
+  int paused = 0;
+  for (Eigen::Index i = 0; i < flux.size(); ++i) {
+    const float left = flux[i] - mean - wave_[i];
+    energy += left * left;
+    if (std::abs(flux[i] - mean) > kAtMean * mean || std::abs(wave_[i]) < kOffMean * mean) continue;
+    paused_energy += left * left;
+    ++paused;
+  }
+  if (static_cast<float>(paused) > kMostPaused * static_cast<float>(flux.size())) return energy;
+  freedom = std::max(0, freedom - paused);
+  return energy - paused_energy;
 }
 
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
@@ -122,8 +128,8 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   double residual = 0;
   int freedom = 0;
   if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
-    residual += trimmed_residual(flux, reading.mean) / flux_variance;
-    freedom += std::max(0, frames - 1 - 2 * reading.tones);
+    freedom = std::max(0, frames - 1 - 2 * reading.tones);
+    residual += residual_energy(flux, reading.mean, freedom) / flux_variance;
   }
   if (track.path().still()) {
     const float square = flux.square().sum();

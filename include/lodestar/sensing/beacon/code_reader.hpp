@@ -49,8 +49,8 @@ class CodeReader {
     Eigen::Matrix<float, Eigen::Dynamic, 1, 0, 7, 1> amplitudes;  ///< of the basis' rows, two a tone, ascending
   };
   Fit fit_code(const ToneBank& bank, float noise_power);
-  /// Energy that the code leaves of the flux.
-  float trimmed_residual(const BlobTrack::Series& flux, float mean);
+  /// Energy that the code leaves of the flux, paused frames left out. @param freedom less by those
+  float residual_energy(const BlobTrack::Series& flux, float mean, int& freedom) const;
   Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
