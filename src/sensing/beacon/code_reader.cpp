@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
+constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
 constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
@@ -260,6 +261,8 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
       whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
   if (whole) track.learn_noise(reading.pixel_variance);
   if (reading.code.empty() || !reading.explained) return std::nullopt;
+  // A beacon is dimmed all the way, 0.4 to 0.7 of its mean rms; what shimmers on a steady lamp is not.
+  if (wave_.square().mean() < kMinDepth * kMinDepth * reading.mean * reading.mean) return std::nullopt;
   // Before the test of power: what has gone leaves a residual that looks like noise.
   if (reading.code == track.code && has_gone(track, window, reading, dark_variance)) {
     track.hide();
