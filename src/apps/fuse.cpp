@@ -76,8 +76,7 @@ int fuse(const po::variables_map& options) {
   const auto share = options["systematic"].as<double>();
   if (!(share >= 0 && share <= 1)) throw UserError("--systematic is a share: give 0 to 1.");
   const Drive drive = load(options["bag"].as<std::string>(), vehicle);
-  constexpr double kAnyRate_hz = 60;
-  PoseFilterParams params = line_params(Site(), vehicle, kAnyRate_hz).filter;
+  PoseFilterParams params = line_params(Site(), vehicle).filter;
   params.fix_systematic_share = share;
   if (share == 0) params.fix_correlation_s = 0;
   PoseFilter filter(params);

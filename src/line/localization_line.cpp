@@ -8,11 +8,15 @@ Duration heard_for(const Link& link) { return from_seconds(3.0 * link.slot_s * l
 
 }  // namespace
 
-LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_rate_hz) {
+LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz) {
   LineParams params;
   params.detector.tone_table_hz = site.tone_table_hz;
-  params.detector.window_frames =
-      vehicle.window_frames.value_or(window_frames(site.tone_table_hz, vehicle.camera_rate_hz.value_or(frame_rate_hz)));
+  if (vehicle.camera_rate_hz) frame_rate_hz = vehicle.camera_rate_hz;
+  if (vehicle.window_frames) {
+    params.detector.window_frames = *vehicle.window_frames;
+  } else if (frame_rate_hz) {
+    params.detector.window_frames = window_frames(site.tone_table_hz, *frame_rate_hz);
+  }
   params.detector.white_level = vehicle.camera_white_level;
 
   params.namer.require_announcement = vehicle.has_ir_receiver;

@@ -24,8 +24,9 @@ struct LineParams {
   Duration heard_for{};       ///< how long after its announcement a beacon counts as heard
 };
 
-/// @param frame_rate_hz of the camera, for the window where neither file fixes it
-LineParams line_params(const Site& site, const Vehicle& vehicle, double frame_rate_hz);
+/// @param frame_rate_hz of the camera, for the detector's window where neither file fixes it; none for who runs other
+/// stages alone
+LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz = std::nullopt);
 
 /// The whole optical line in one object, for replay and simulation: the same stages that the nodelets run.
 /// Calls come in the order of reception.

@@ -18,7 +18,6 @@
 namespace lodestar {
 
 namespace {
-constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends on the frame rate
 
 // A little early counts as due: stamps jitter, and every second sample must not be lost to that.
 bool due(const std::optional<Stamp>& last, Stamp now, double rate_hz) {
@@ -73,7 +72,7 @@ void PoseFusionNodelet::read_params(ParamReader& params) {
 }
 
 void PoseFusionNodelet::make_stage() {
-  LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
+  LineParams params = line_params(edge_->site(), edge_->vehicle());
   params.filter.fix_systematic_share = fix_systematic_share_;
   params.filter.camera_time_offset_sigma_s = camera_time_offset_sigma_s_;
   stage_ = std::make_unique<FusionStage>(params.filter, params.calibration_sigma_px, use_sightings_);

@@ -10,16 +10,14 @@
 
 namespace lodestar {
 
-namespace {
-constexpr double kAnyRate_hz = 60;  // of the stages, only the detector depends on the frame rate
-}
+namespace {}
 
 void PoseSolvingNodelet::onInit() {
   ros::NodeHandle& nh = getNodeHandle();
   ParamReader reader(getPrivateNodeHandle());
   edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "pose solving", [this] { reset(); });
 
-  const LineParams params = line_params(edge_->site(), edge_->vehicle(), kAnyRate_hz);
+  const LineParams params = line_params(edge_->site(), edge_->vehicle());
   stage_ = std::make_unique<PoseStage>(params.solver, params.tilt, params.calibration_sigma_px);
   Health& health = edge_->health();
   sightings_watch_ = &health.watch("sightings", Need::kRequired);

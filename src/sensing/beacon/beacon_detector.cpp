@@ -119,14 +119,14 @@ void BeaconDetector::choose_lags() {
   lags_for_s_ = period_s;
   const auto shown = [&](double tone_hz, int lag) { return std::pow(std::sin(kPi * tone_hz * lag * period_s), 2); };
   double best = -1;
-  for (int even = 1; even <= ChangeScan::kMaxLag; ++even) {
-    for (int odd = even; odd <= ChangeScan::kMaxLag; ++odd) {
+  for (int first = 1; first <= ChangeScan::kMaxLag; ++first) {
+    for (int second = first; second <= ChangeScan::kMaxLag; ++second) {
       double worst = 2;
       for (const double tone_hz : params_.tone_table_hz)
-        worst = std::min(worst, shown(tone_hz, even) + shown(tone_hz, odd));
+        worst = std::min(worst, shown(tone_hz, first) + shown(tone_hz, second));
       if (worst <= best) continue;
       best = worst;
-      scan_.set_lags(even, odd);
+      scan_.set_lags(first, second);
     }
   }
 }

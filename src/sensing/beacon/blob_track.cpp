@@ -17,8 +17,6 @@ constexpr float kMovingWidthStep = 0.05f;
 constexpr float kMaxClippedPx = 4.8f;  ///< what clips farther out leaves too little of the patch
 constexpr float kMinSigmaPx = 0.4f, kMaxSigmaPx = 2.5f;
 
-Eigen::Vector2i nearest(const Eigen::Vector2d& place) { return place.array().round().matrix().cast<int>(); }
-
 }  // namespace
 
 BlobTrack::BlobTrack(const PathFilter& path, int slots)
@@ -42,10 +40,10 @@ void BlobTrack::restart(const PathFilter& path) {
   widening_.setZero();
   clipped_radius_.setZero();
   pixel_variance_ = 0;
-  newest_flux_ = 0;
   frames_ = hits_ = unseen_ = 0;
 }
 
+/// How far from the prediction the blob may turn up.
 double BlobTrack::gate_px() const { return std::clamp(4.0 * std::sqrt(path_.variance()), kMinGatePx, kMaxGatePx); }
 
 void BlobTrack::hide() {
@@ -62,7 +60,7 @@ void BlobTrack::aim(const Eigen::Vector2d& place) {
     shift_v_ -= flux_ * moved.y();
   }
   anchor_ = place;
-  filter_.design(place - place.array().round().matrix(), shape_);
+  filter_.design(place - nearest_pixel(place).cast<double>(), shape_);
   designed_ = true;
 }
 
@@ -82,9 +80,9 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
 
   const auto read_at = [&](const Eigen::Vector2d& aimed) {
     aim(aimed);
-    return patch_.read(image, nearest(anchor_));
+    return patch_.read(image, nearest_pixel(anchor_));
   };
-  if (!path_.still() && path_.variance() > kUncertainPx2 && patch_.read(image, nearest(place)) &&
+  if (!path_.still() && path_.variance() > kUncertainPx2 && patch_.read(image, nearest_pixel(place)) &&
       (patch_.centroid() - place).norm() < gate) {
     if (!read_at(patch_.centroid())) return Look::kOutside;
   } else if (!read_at(place)) {
@@ -109,7 +107,6 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   if (clipped > kMaxClippedPx) return Look::kOutside;
   const int slot = window.newest();
   record(slot, light, clipped);
-  newest_flux_ = light.flux;
   frames_ = std::min(frames_ + 1, static_cast<int>(flux_.size()));
   if (!seen) {
     ++unseen_;
@@ -190,7 +187,7 @@ bool BlobTrack::read_window(const FrameWindow& window, int frames, const PixelNo
 bool BlobTrack::look_back(const FrameWindow& window, int age, const Eigen::Vector2d& place, const PixelNoise& noise) {
   const int slot = window.slot(age);
   aim(place);
-  if (!patch_.read(window.at(slot), nearest(anchor_))) return false;
+  if (!patch_.read(window.at(slot), nearest_pixel(anchor_))) return false;
   const float clipped = patch_.clipped_radius(anchor_, noise.white_level);
   if (clipped > kMaxClippedPx) return false;
   record(slot, filter_.read(patch_), clipped);

@@ -171,7 +171,7 @@ void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, con
     track.restart(path);
     if (track.look(window, path.pixel(), noise) != BlobTrack::Look::kSeen) continue;
     const double variance = noise.dark_variance * track.filter().flux_variance();
-    if (track.newest_flux() < kBirthSigmas * std::sqrt(variance)) continue;
+    if (track.flux()[window.newest()] < kBirthSigmas * std::sqrt(variance)) continue;
     if (covers(track.path().pixel()) || suspects(track.path().pixel())) continue;
     ++count_;
   }

@@ -221,22 +221,22 @@ void ChangeScan::collect(const Planes<Lane>& planes, const Plane<Lane>& now, con
 void ChangeScan::settle(const Eigen::Vector2i& pixel, bool found) {
   const Eigen::Vector2i cell = pixel / 2;
   if (bits_ == 8) {
-    settle_in(narrow_, cell, found);
+    calm(narrow_, cell);
   } else {
-    settle_in(wide_, cell, found);
+    calm(wide_, cell);
   }
+  if (!found) defer(pixel);
 }
 
 void ChangeScan::defer(const Eigen::Vector2i& pixel) { tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)] += kLimitStep; }
 
 template <class Lane>
-void ChangeScan::settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found) {
+void ChangeScan::calm(Planes<Lane>& planes, const Eigen::Vector2i& cell) {
   for (int row = std::max(0, cell.y() - 1); row <= std::min(rows_ - 1, cell.y() + 1); ++row) {
     Lane* energy = planes.energy.data() + static_cast<std::size_t>(row * segments_) * kSegment;
     for (int column = std::max(0, cell.x() - 1); column <= std::min(columns_ - 1, cell.x() + 1); ++column)
       energy[column] = 0;
   }
-  if (!found) tile_limit_[tile(cell.x(), cell.y())] += kLimitStep;
 }
 
 }  // namespace lodestar

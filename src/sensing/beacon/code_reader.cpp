@@ -13,7 +13,6 @@ namespace {
 constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
-constexpr int kMaxTonesPerCode = 3;
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
@@ -36,18 +35,17 @@ bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double pow
   if (energy > noise * (frames + kEnergySigmas * std::sqrt(2 * frames))) return true;
   projections_.noalias() = bank.basis() * track.flux().matrix();
   for (int tone = 0; tone < bank.tones(); ++tone)
-    if (projections_.segment<2>(2 * tone).squaredNorm() > kNearThreshold * power_threshold * noise) return true;
+    if (tone_power(projections_, tone) > kNearThreshold * power_threshold * noise) return true;
   return false;
 }
 
 CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
   // The strongest tones are fitted together and taken off the others: on uneven stamps they leak.
-  const auto power = [&](int tone) { return projections_.segment<2>(2 * tone).squaredNorm(); };
   std::array<int, ToneSet::kMaxTones> order;
   std::iota(order.begin(), order.end(), 0);
   const auto most = static_cast<std::ptrdiff_t>(std::min(kMaxTonesPerCode, bank.tones()));
   std::partial_sort(order.begin(), order.begin() + most, order.begin() + bank.tones(),
-                    [&](int a, int b) { return power(a) > power(b); });
+                    [&](int a, int b) { return tone_power(projections_, a) > tone_power(projections_, b); });
   Fit fit;
   ToneSet set;
   for (int n = 1; n <= most; ++n) {
@@ -119,7 +117,6 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
              fit.amplitudes[c + 1] * bank.basis().row(2 * tone + 1).transpose().array();
     reading.sent += fit.amplitudes.segment<2>(c).dot(projections_.segment<2>(2 * tone));
     weakest = std::min(weakest, fit.amplitudes.segment<2>(c).squaredNorm());
-    ++reading.tones;
     c += 2;
   }
   reading.mean = flux.mean();
@@ -129,7 +126,7 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   double residual = 0;
   int freedom = 0;
   if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
-    freedom = std::max(0, frames - 1 - 2 * reading.tones);
+    freedom = std::max(0, frames - 1 - 2 * reading.code.size());
     residual += residual_energy(flux, reading.mean, freedom) / flux_variance;
   }
   if (track.path().still()) {
@@ -188,7 +185,6 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
   }
   Reading reading;
   reading.code = track.code;
-  reading.tones = track.code.size();
   reading.mean = x[0];
   const float flux_variance = track.filter().flux_variance();
   reading.pixel_variance = left / static_cast<float>(std::max(1, track.frames() - columns)) / flux_variance;
@@ -205,7 +201,7 @@ bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, con
                           double dark_variance) const {
   constexpr float kDarkShare = 0.3f;  ///< of the light that is expected
   // An on-off beacon is farther from its tone than one that is dimmed.
-  const float limit = (reading.tones == 1 ? 2.5f : 0.7f) * reading.mean;
+  const float limit = (reading.code.size() == 1 ? 2.5f : 0.7f) * reading.mean;
   const float sigma = std::sqrt(static_cast<float>(dark_variance) * track.filter().flux_variance());
   float missing = 0;
   for (int age = 0; age < track.frames(); ++age) {

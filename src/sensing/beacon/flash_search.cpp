@@ -35,12 +35,23 @@ std::optional<Eigen::Vector2d> clipped_core(const FrameWindow& window, const Eig
     if (clipped.maxCoeff() == 0) return core;
     Eigen::Vector2d moment = Eigen::Vector2d::Zero();
     for (int i = 0; i < Patch::kPixels; ++i)
-      moment += static_cast<double>(clipped[i]) *
-                Eigen::Vector2d(i % Patch::kSide - Patch::kHalf, i / Patch::kSide - Patch::kHalf);
+      moment += static_cast<double>(clipped[i]) * Patch::offset(i).cast<double>();
     core = middle.cast<double>() + moment / static_cast<double>(clipped.sum());
-    middle = core->array().round().matrix().cast<int>();
+    middle = nearest_pixel(*core);
   }
   return core;
+}
+
+/// The frames' patches weighed by `wave`: an image of the light that follows it alone. False: outside the image.
+bool weigh(const FrameWindow& window, const Eigen::VectorXf& wave, const Eigen::Vector2i& middle, Patch& amplitude) {
+  Patch frame;
+  amplitude.centre = middle;
+  amplitude.values.setZero();
+  for (int slot = 0; slot < window.capacity(); ++slot) {
+    if (!frame.read(window.at(slot), middle)) return false;
+    amplitude.values += wave[slot] * frame.values;
+  }
+  return true;
 }
 
 }  // namespace
@@ -57,53 +68,45 @@ std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, c
   }
   powers_.noalias() = bank.basis() * light_;
   Eigen::Index tone = 0;
-  float strongest = 0;
-  for (Eigen::Index k = 0; k < bank.tones(); ++k) {
-    const float power = powers_.segment<2>(2 * k).squaredNorm();
-    if (power > strongest) {
-      strongest = power;
-      tone = k;
-    }
-  }
+  for (Eigen::Index k = 1; k < bank.tones(); ++k)
+    if (tone_power(powers_, k) > tone_power(powers_, tone)) tone = k;
+  const float strongest = tone_power(powers_, tone);
   if (strongest < kBlockShare * power_threshold * kBlockPixels * noise.dark_variance) return std::nullopt;
 
   constexpr double kCoreVariance = 0.25;
   if (const auto core = clipped_core(window, pixel, noise.white_level)) return Flash{*core, kCoreVariance};
 
-  // The tone's amplitude in each pixel, along the cell's phase: an image of this light alone.
+  // Along the block's phase: an image of this light alone.
   wave_.noalias() = bank.basis().middleRows(2 * tone, 2).transpose() * powers_.segment<2>(2 * tone);
   wave_ /= std::sqrt(strongest);
-  Patch amplitude, frame;
-  Eigen::Vector2i middle = pixel;
-  Eigen::Vector2d place = pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
+  return locate(window, pixel, kSpotShare * power_threshold, noise);
+}
+
+std::optional<FlashSearch::Flash> FlashSearch::locate(const FrameWindow& window, const Eigen::Vector2i& pixel,
+                                                      double power_threshold, const PixelNoise& noise) const {
+  constexpr int kSteps = 5;
+  constexpr double kReachPx = 3, kStepPx = 0.7, kSettledPx = 0.02;
+  const auto in_reach = [&](const Eigen::Vector2d& place) { return (place - pixel.cast<double>()).norm() <= kReachPx; };
+  Patch amplitude;
+  if (!weigh(window, wave_, nearest_pixel(pixel.cast<double>() + Eigen::Vector2d::Constant(0.5)), amplitude))
+    return std::nullopt;
+  Eigen::Vector2d place = amplitude.centroid();
+  if (!in_reach(place)) return std::nullopt;
+
   SpotFilter filter;
   std::optional<Flash> found;
-  for (int step = 0; step < 6; ++step) {
-    const Eigen::Vector2i nearest = place.array().round().matrix().cast<int>();
-    if (step == 0 || nearest != middle) {
-      middle = nearest;
-      amplitude.values.setZero();
-      for (int slot = 0; slot < window.capacity(); ++slot) {
-        if (!frame.read(window.at(slot), middle)) return std::nullopt;
-        amplitude.values += wave_[slot] * frame.values;
-      }
-      amplitude.centre = middle;
-    }
-    if (step == 0) {
-      place = amplitude.centroid();
-      if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;
-      continue;
-    }
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::Vector2i middle = nearest_pixel(place);
+    if (middle != amplitude.centre && !weigh(window, wave_, middle, amplitude)) return std::nullopt;
     filter.design(place - middle.cast<double>(), SpotShape());
     const SpotLight light = filter.read(amplitude);
-    if (light.flux <= 0 ||
-        light.flux * light.flux < kSpotShare * power_threshold * noise.dark_variance * filter.flux_variance())
-      return std::nullopt;
+    const double square = static_cast<double>(light.flux) * light.flux;
+    if (light.flux <= 0 || square < power_threshold * noise.dark_variance * filter.flux_variance()) return std::nullopt;
     const Eigen::Vector2d shift = (light.shift / light.flux).cast<double>();
-    place += shift * std::min(1.0, 0.7 / std::max(1e-9, shift.norm()));
-    if ((place - pixel.cast<double>()).norm() > 3) return std::nullopt;
-    found = Flash{place, noise.dark_variance * filter.shift_variance() / (light.flux * light.flux)};
-    if (shift.norm() < 0.02) break;
+    place += shift * std::min(1.0, kStepPx / std::max(1e-9, shift.norm()));
+    if (!in_reach(place)) return std::nullopt;
+    found = Flash{place, noise.dark_variance * filter.shift_variance() / square};
+    if (shift.norm() < kSettledPx) break;
   }
   return found;
 }

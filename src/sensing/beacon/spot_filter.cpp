@@ -64,8 +64,7 @@ float Patch::clipped_radius(const Eigen::Vector2d& place, float white_level) con
   double radius = 0;
   for (int i = 0; i < kPixels; ++i) {
     if (values[i] < white_level) continue;
-    const Eigen::Vector2d pixel = (centre + Eigen::Vector2i(i % kSide - kHalf, i / kSide - kHalf)).cast<double>();
-    radius = std::max(radius, (pixel - place).norm());
+    radius = std::max(radius, ((centre + offset(i)).cast<double>() - place).norm());
   }
   return static_cast<float>(radius);
 }
@@ -82,7 +81,7 @@ Eigen::Vector2d Patch::centroid() const {
   for (int i = 0; i < kPixels; ++i) {
     if (values[i] <= floor) continue;
     light += values[i] - floor;
-    moment += static_cast<double>(values[i] - floor) * Eigen::Vector2d(i % kSide - kHalf, i / kSide - kHalf);
+    moment += static_cast<double>(values[i] - floor) * offset(i).cast<double>();
   }
   return centre.cast<double>() + (light > 0 ? Eigen::Vector2d(moment / light) : Eigen::Vector2d::Zero());
 }
@@ -104,10 +103,8 @@ void SpotFilter::design(const Eigen::Vector2d& place, const SpotShape& shape) {
   Patch::Array weight = Patch::Array::Ones();
   if (shape.shot > 0) weight = 1.0f / (1.0f + shape.shot * model.col(0) / model.col(0).maxCoeff());
   if (shape.clipped_radius_px > 0) {
-    for (int i = 0; i < Patch::kPixels; ++i) {
-      const Eigen::Vector2d pixel(i % Patch::kSide - Patch::kHalf, i / Patch::kSide - Patch::kHalf);
-      if ((pixel - place).norm() < shape.clipped_radius_px) weight[i] = 0;
-    }
+    for (int i = 0; i < Patch::kPixels; ++i)
+      if ((Patch::offset(i).cast<double>() - place).norm() < shape.clipped_radius_px) weight[i] = 0;
   }
 
   // Gram-Schmidt under the weights: each column keeps what the background and the ones before it cannot explain.
@@ -118,7 +115,7 @@ void SpotFilter::design(const Eigen::Vector2d& place, const SpotShape& shape) {
     for (int before = 0; before < c; ++before) {
       // filters_ already holds weight * direction * variance.
       const float share = (filters_.col(before) * filter).sum();
-      filter -= share * (model.col(before));
+      filter -= share * model.col(before);
     }
     model.col(c) = filter;
     const float power = std::max((weight * filter.square()).sum(), 1e-12f);

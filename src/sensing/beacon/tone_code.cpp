@@ -8,7 +8,6 @@
 namespace lodestar {
 
 ToneSet decide_code(const TonePowers& power, const ToneCodeParams& params) {
-  constexpr Eigen::Index kMaxTonesPerCode = 3;
   std::array<int, ToneSet::kMaxTones> order;
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.begin() + power.size(), [&](int a, int b) { return power[a] > power[b]; });
@@ -19,7 +18,7 @@ ToneSet decide_code(const TonePowers& power, const ToneCodeParams& params) {
   const double balance = std::pow(10.0, -params.balance_db / 10.0);
   const double margin = std::pow(10.0, -params.margin_db / 10.0);
   ToneSet code;
-  for (Eigen::Index n = 0; n < std::min(kMaxTonesPerCode, power.size()); ++n) {
+  for (Eigen::Index n = 0; n < std::min<Eigen::Index>(kMaxTonesPerCode, power.size()); ++n) {
     if (ranked(n) <= 0 || ranked(n) < balance * ranked(0)) return {};
     code.insert(order[static_cast<std::size_t>(n)]);
     if (ranked(n + 1) <= margin * ranked(n)) return code;

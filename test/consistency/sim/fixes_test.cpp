@@ -44,7 +44,7 @@ Outcome run(const std::string& name) {
   for (const std::uint64_t seed : {1, 2}) {
     scenario.seed = seed;
     Simulation simulation(scenario);
-    PoseFilterParams params = line_params(scenario.site, vehicle, 60).filter;
+    PoseFilterParams params = line_params(scenario.site, vehicle).filter;
     params.fix_systematic_share = params.fix_correlation_s = 0;
     PoseFilter filter(params);
     filter.set_imu(scenario.imu.T_base_imu.translation());

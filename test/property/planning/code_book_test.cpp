@@ -45,7 +45,7 @@ ToneSet decoded(const CodeBook& book, const CodeBookParams& params, const Eigen:
   const ToneBank bank(stamps, book.tone_table_hz);
   const Eigen::VectorXf q = bank.basis() * signal;
   TonePowers power(bank.tones());
-  for (int k = 0; k < bank.tones(); ++k) power[k] = q.segment<2>(2 * k).squaredNorm();
+  for (int k = 0; k < bank.tones(); ++k) power[k] = tone_power(q, k);
   return decide_code(power, detector);
 }
 

@@ -46,14 +46,10 @@ class BlobTrack {
   /// window should be read anew.
   bool reshape(double dark_variance);
 
-  /// How far from the prediction the blob may turn up, px.
-  double gate_px() const;
-
   /// The newest frames whose light is known without a gap, at most N.
   int frames() const { return frames_; }
   int hits() const { return hits_; }
   int unseen_frames() const { return unseen_; }
-  float newest_flux() const { return newest_flux_; }
 
   const PathFilter& path() const { return path_; }
   PathFilter& path() { return path_; }
@@ -76,6 +72,7 @@ class BlobTrack {
   void confirm() { unseen_ = 0; }
 
  private:
+  double gate_px() const;
   void aim(const Eigen::Vector2d& place);
   void record(int slot, const SpotLight& light, float clipped_radius);
   bool follow_width(double dark_variance);
@@ -92,7 +89,6 @@ class BlobTrack {
   Series flux_, shift_u_, shift_v_, widening_, clipped_radius_;
   std::vector<Eigen::Vector2d> places_;
   double pixel_variance_ = 0;
-  float newest_flux_ = 0;
   int frames_ = 0, hits_ = 0, unseen_ = 0;
 };
 

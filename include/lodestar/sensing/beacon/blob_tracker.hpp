@@ -39,7 +39,6 @@ class BlobTracker {
   BlobTrack* end() { return tracks_.data() + count_; }
   const BlobTrack* begin() const { return tracks_.data(); }
   const BlobTrack* end() const { return tracks_.data() + count_; }
-  std::size_t size() const { return count_; }
 
  private:
   using Changes = std::vector<ChangeScan::Change>;

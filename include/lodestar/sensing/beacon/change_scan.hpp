@@ -72,7 +72,7 @@ class ChangeScan {
   template <class Lane>
   void collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
   template <class Lane>
-  void settle_in(Planes<Lane>& planes, const Eigen::Vector2i& cell, bool found);
+  void calm(Planes<Lane>& planes, const Eigen::Vector2i& cell);
   std::size_t tile(int column, int row) const;
 
   int forget_bits_, clip_;

@@ -35,8 +35,7 @@ class CodeReader {
 
  private:
   struct Reading {
-    ToneSet code;  ///< empty: none that keeps the margins
-    int tones = 0;
+    ToneSet code;                  ///< empty: none that keeps the margins
     float sent = 0, energy = 0;    ///< power of the code's tones, and of all that varies
     float mean = 0;                ///< light, grey levels
     float weakest_over_noise = 0;  ///< power of the code's weakest tone
@@ -45,8 +44,9 @@ class CodeReader {
   };
   /// The code's tones, fitted together.
   struct Fit {
-    ToneSet code;                                                 ///< empty: none that keeps the margins
-    Eigen::Matrix<float, Eigen::Dynamic, 1, 0, 7, 1> amplitudes;  ///< of the basis' rows, two a tone, ascending
+    ToneSet code;  ///< empty: none that keeps the margins
+    /// Of the basis' rows, two a tone, ascending.
+    Eigen::Matrix<float, Eigen::Dynamic, 1, 0, 2 * kMaxTonesPerCode, 1> amplitudes;
   };
   Fit fit_code(const ToneBank& bank, float noise_power);
   /// Energy that the code leaves of the flux, paused frames left out. @param freedom less by those

@@ -24,6 +24,10 @@ class FlashSearch {
                             double power_threshold, const PixelNoise& noise);
 
  private:
+  /// Gauss-Newton on the image of what follows wave_, from the cell at `pixel`.
+  std::optional<Flash> locate(const FrameWindow& window, const Eigen::Vector2i& pixel, double power_threshold,
+                              const PixelNoise& noise) const;
+
   Eigen::VectorXf light_, powers_, wave_;
 };
 

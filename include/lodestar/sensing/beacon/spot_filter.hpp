@@ -6,6 +6,11 @@
 
 namespace lodestar {
 
+/// The pixel whose area holds a place.
+inline Eigen::Vector2i nearest_pixel(const Eigen::Vector2d& place) {
+  return place.array().round().matrix().cast<int>();
+}
+
 /// The 9 x 9 pixels around a place in one frame, row by row.
 struct Patch {
   static constexpr int kHalf = 4, kSide = 2 * kHalf + 1, kPixels = kSide * kSide;
@@ -13,6 +18,9 @@ struct Patch {
 
   Eigen::Vector2i centre = Eigen::Vector2i::Zero();  ///< image pixel of the middle one
   Array values = Array::Zero();                      ///< grey levels
+
+  /// From the middle pixel to that of `index`.
+  static Eigen::Vector2i offset(int index) { return {index % kSide - kHalf, index / kSide - kHalf}; }
 
   /// False where the patch is not wholly inside the image.
   bool read(const Image& image, const Eigen::Vector2i& centre_px);

@@ -50,4 +50,9 @@ class ToneBank {
   Basis waves_, basis_, gram_;
 };
 
+/// Power of a tone in what the bank's basis makes of a signal: two projections a tone.
+inline float tone_power(const Eigen::VectorXf& projections, Eigen::Index tone) {
+  return projections.segment<2>(2 * tone).squaredNorm();
+}
+
 }  // namespace lodestar

@@ -11,6 +11,8 @@ struct ToneCodeParams {
   double margin_db = 6.0;   ///< the strongest tone that is not sent is at least this much below the weakest that is
 };
 
+constexpr int kMaxTonesPerCode = 3;
+
 /// Power at each tone of the table.
 using TonePowers = Eigen::Array<float, Eigen::Dynamic, 1, 0, ToneSet::kMaxTones, 1>;
 

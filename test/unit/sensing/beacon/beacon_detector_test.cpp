@@ -147,6 +147,40 @@ TEST(BeaconDetector, LampsAreNoBeacons) {
   }
 }
 
+TEST(BeaconDetector, ALampThatShimmersInATonesRhythmIsNoBeacon) {
+  for (const double depth : {0.02, 0.05, 0.15}) {
+    BlobScene scene;
+    scene.lights = {{at(60.3, 50.8), [=](double t) { return 700 * (1 + depth * std::cos(2 * kPi * 8 * t)); }}};
+    auto detector = detector_for(scene);
+    for (int frame = 0; frame < 60; ++frame) {
+      EXPECT_TRUE(detector.process(scene.render(frame / 60.0), CameraMotion()).value().sightings.empty())
+          << "depth " << depth << ", frame " << frame;
+    }
+  }
+}
+
+TEST(BeaconDetector, ABeaconThatPausesToSendItsFrameKeepsItsCodeInMotion) {
+  // Eight slots of 25 ms: at 30 frames/s each sixth frame shows the mean (optical_link.md, section 2).
+  constexpr int kWindow = 15;
+  constexpr double kRate_hz = 30, kMean = 250, kSlot_s = 0.025, kSuperframe_s = 8 * kSlot_s;
+  const auto code = tones(kMean, {4, 14});
+  BlobScene scene;
+  scene.lights = {{[](double t) { return Eigen::Vector2d(20 + 30 * t, 50.4); },
+                   [=](double t) { return std::fmod(t, kSuperframe_s) < kSlot_s ? kMean : code(t); }}};
+  auto detector = detector_for(scene, {4, 6, 8, 14}, kWindow);
+  int windows = 0, read = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    const auto result = detector.process(scene.render(frame / kRate_hz), CameraMotion());
+    if (frame < kWindow + 5) continue;
+    ++windows;
+    for (const Sighting& sighting : result->sightings) {
+      EXPECT_EQ(sighting.tones, (ToneSet{0, 3}));
+      ++read;
+    }
+  }
+  EXPECT_GE(read, windows * 3 / 4) << "a pause in one frame of six spoils some windows";
+}
+
 TEST(BeaconDetector, AMovingSteadyLampIsNoBeacon) {
   for (double speed_px_s : {3.0, 20.0, 60.0, 200.0}) {
     BlobScene scene;
