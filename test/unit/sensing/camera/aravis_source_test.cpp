@@ -1,0 +1,127 @@
+// Against Aravis' own fake GigE Vision camera, a process that speaks the protocol on the loopback.
+#include <gtest/gtest.h>
+
+#include "lodestar/sensing/camera/capture.hpp"
+#include "lodestar/sensing/camera/open_source.hpp"
+#include "support/camera/fake_gige_camera.hpp"
+#include "support/camera/heap_frames.hpp"
+
+namespace lodestar {
+namespace {
+
+using test::FakeGigeCamera;
+
+class AravisSourceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!LODESTAR_HAS_ARAVIS || !FakeGigeCamera::installed()) GTEST_SKIP() << "no Aravis, or no aravis-tools";
+    settings_.rate_hz = 100;
+    settings_.exposure_s = 0.002;
+  }
+  Capture capture() {
+    return Capture([] { return open_source(FakeGigeCamera::kUri); }, settings_, memory_.allocator(), 0);
+  }
+  int frames_within(Capture& capture, double seconds) {
+    int frames = 0;
+    const auto end = std::chrono::steady_clock::now() + from_seconds(seconds);
+    while (std::chrono::steady_clock::now() < end) frames += capture.next().has_value();
+    return frames;
+  }
+
+  CameraSettings settings_;
+  test::HeapFrames memory_;
+};
+
+TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
+  const FakeGigeCamera camera;
+  const auto source = open_source(FakeGigeCamera::kUri);
+  const SourceInfo info = source->start(settings_, memory_.allocator());
+  EXPECT_NEAR(info.exposure_s, 0.002, 1e-9);
+  EXPECT_EQ(info.clock.frame_id_bits, 16);
+  for (int i = 0; i < 30; ++i) {
+    const auto frame = source->next(std::chrono::seconds(1));
+    ASSERT_TRUE(frame.ok()) << name(frame.error());
+    EXPECT_TRUE(memory_.gave(frame->memory.data));
+    EXPECT_EQ(frame->stride_bytes, static_cast<std::size_t>(frame->width_px));
+    std::uint8_t* const end = frame->memory.data + frame->stride_bytes * static_cast<std::size_t>(frame->height_px);
+    EXPECT_NE(std::find_if(frame->memory.data, end, [](std::uint8_t grey) { return grey != 0; }), end);
+  }
+}
+
+TEST_F(AravisSourceTest, SixteenBitsAndAnotherSize) {
+  const FakeGigeCamera camera;
+  settings_.pixel_format = "mono16";
+  settings_.width_px = 320;
+  settings_.height_px = 200;
+  const auto source = open_source(FakeGigeCamera::kUri);
+  source->start(settings_, memory_.allocator());
+  const auto frame = source->next(std::chrono::seconds(1));
+  ASSERT_TRUE(frame.ok());
+  EXPECT_EQ(frame->bits, 16);
+  EXPECT_EQ(frame->width_px, 320);
+  EXPECT_EQ(frame->height_px, 200);
+  EXPECT_EQ(frame->stride_bytes, 640u);
+}
+
+TEST_F(AravisSourceTest, LimitsAreTheCameras) {
+  const FakeGigeCamera camera;
+  settings_.exposure_s = 20;
+  settings_.gain = 50;
+  settings_.pixel_format = "mjpeg";
+  try {
+    open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
+    FAIL() << "was not refused";
+  } catch (const CameraRefusal& refusal) {
+    EXPECT_EQ(std::string(refusal.what()),
+              "gige:127.0.0.1: exposure_s is 20 s, the camera takes 1e-05 to 10 s: choose one of these\n"
+              "gige:127.0.0.1: gain is 50, the camera takes 0 to 10: choose one of these\n"
+              "gige:127.0.0.1: pixel_format is 'mjpeg', the camera has mono8, mono16: choose one of these\n");
+  }
+}
+
+TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
+  const FakeGigeCamera camera;
+  Capture capture = this->capture();
+  const int frames = frames_within(capture, 1.5);
+  EXPECT_GT(frames, 60);
+  EXPECT_NEAR(1 / capture.counter().period_s(), 100, 15);
+  EXPECT_EQ(capture.clock_restarts(), 0u);
+}
+
+TEST_F(AravisSourceTest, FrozenThenBack) {
+  FakeGigeCamera camera;
+  Capture capture = this->capture();
+  ASSERT_GT(frames_within(capture, 0.5), 10);
+  camera.freeze();
+  const auto frozen = std::chrono::steady_clock::now();
+  while (capture.state() == CaptureState::kRunning) capture.next();
+  EXPECT_LT(std::chrono::steady_clock::now() - frozen, std::chrono::seconds(1));
+  EXPECT_EQ(capture.state(), CaptureState::kSilent);
+  camera.thaw();
+  EXPECT_GT(frames_within(capture, 3), 10);
+  EXPECT_EQ(capture.reconnects(), 1u);
+}
+
+TEST_F(AravisSourceTest, KilledAndStartedAgain) {
+  FakeGigeCamera camera;
+  Capture capture = this->capture();
+  ASSERT_GT(frames_within(capture, 0.5), 10);
+  camera.unplug();
+  while (capture.state() == CaptureState::kRunning) capture.next();
+  camera.plug_in();
+  EXPECT_GT(frames_within(capture, 3), 10);
+  EXPECT_GE(capture.reconnects(), 1u);
+}
+
+TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {
+  const FakeGigeCamera camera(1);
+  Capture capture = this->capture();
+  EXPECT_GT(frames_within(capture, 1.5), 10);
+  EXPECT_GT(capture.missed()[NoFrame::kIncomplete], 0u);
+  EXPECT_GE(capture.dropped(), 1u);
+}
+
+TEST_F(AravisSourceTest, NobodyThere) { EXPECT_THROW(open_source("gige:127.0.0.1"), CameraError); }
+
+}  // namespace
+}  // namespace lodestar
