@@ -16,13 +16,19 @@ void Capture::open() {
     source_.reset();
     throw;
   }
+  forget_stream();
   stamper_.emplace(info_, transfer_s_);
-  dropped_before_ += counter_.dropped();
   counter_ = FrameCounter(info_.clock.frame_id_bits);
-  silent_for_ = {};
   reconnects_ += was_open_;
   was_open_ = true;
   state_ = CaptureState::kRunning;
+}
+
+void Capture::forget_stream() {
+  frames_before_ += counter_.frames();
+  dropped_before_ += counter_.dropped();
+  if (stamper_) clock_restarts_before_ += stamper_->fit().restarts();
+  silent_for_ = {};
 }
 
 std::optional<CapturedFrame> Capture::next() {
@@ -77,6 +83,25 @@ void Capture::wait_longer() {
 void Capture::lose(CaptureState state, const std::string& why) {
   state_ = state;
   fault_ = why;
+}
+
+CaptureReport Capture::report() const {
+  CaptureReport report;
+  report.state = state_;
+  report.fault = fault_;
+  report.camera = info_.name;
+  report.frames = frames_before_ + counter_.frames();
+  report.dropped = dropped_before_ + counter_.dropped();
+  report.reconnects = reconnects_;
+  report.missed = missed_;
+  report.clock_restarts = clock_restarts_before_;
+  if (counter_.period_s() > 0) report.rate_hz = 1 / counter_.period_s();
+  report.jitter_s = counter_.jitter_s();
+  if (!stamper_) return report;
+  report.stamping = stamper_->description();
+  report.drift = stamper_->fit().drift();
+  report.clock_restarts += stamper_->fit().restarts();
+  return report;
 }
 
 }  // namespace lodestar

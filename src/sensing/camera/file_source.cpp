@@ -39,7 +39,6 @@ SourceInfo FileSource::start(const CameraSettings& settings, const FrameAllocato
   due_ = host_now();
   SourceInfo info;
   info.name = name;
-  info.calibration = "file";
   info.clock.stamped = SourceClock::Stamped::kExposureMiddle;
   info.clock.heard_at_arrival = false;
   return info;

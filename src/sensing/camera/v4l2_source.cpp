@@ -209,7 +209,6 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
 
   SourceInfo info;
   info.name = name_ + " " + reinterpret_cast<const char*>(capability.card);
-  info.calibration = "v4l2";
   info.exposure_s = exposure_s();
   info.clock.frame_id_bits = 32;
   allocate_ = allocate;

@@ -25,6 +25,17 @@ enum class CaptureState {
   kOver,     ///< a recording came to its end
 };
 
+/// How a capture goes; counts are those since its beginning.
+struct CaptureReport {
+  CaptureState state = CaptureState::kClosed;
+  std::string fault;     ///< why no frame comes; empty while frames come
+  std::string camera;    ///< that is or was open
+  std::string stamping;  ///< how its frames are stamped
+  std::uint64_t frames = 0, dropped = 0, reconnects = 0, clock_restarts = 0;
+  double rate_hz = 0, jitter_s = 0, drift = 0;  ///< of the last second or so
+  DropCounts<NoFrame> missed;
+};
+
 /// A camera that is taken up again whenever it is lost. No thread and no clock of its own: next() blocks for kPatience
 /// at most while the camera is healthy, and as long as its driver takes to open or close it.
 class Capture {
@@ -38,24 +49,18 @@ class Capture {
   /// Opens the camera. @throws CameraRefusal, CameraError
   void open();
 
-  /// The next frame. None: state() and fault() say why. A closed camera is tried again.
+  /// The next frame. None: report() says why. A closed camera is tried again.
   std::optional<CapturedFrame> next();
 
-  CaptureState state() const { return state_; }
-  const std::string& fault() const { return fault_; }  ///< the last, empty while frames come
-  const SourceInfo& info() const { return info_; }     ///< of the camera that is or was open
-  std::uint64_t reconnects() const { return reconnects_; }
-  const DropCounts<NoFrame>& missed() const { return missed_; }
-  const FrameCounter& counter() const { return counter_; }
-  std::uint64_t dropped() const { return dropped_before_ + counter_.dropped(); }
-  std::string stamping() const { return stamper_ ? stamper_->description() : ""; }
-  double drift() const { return stamper_ ? stamper_->fit().drift() : 0; }
-  std::uint64_t clock_restarts() const { return stamper_ ? stamper_->fit().restarts() : 0; }
+  CaptureReport report() const;
+  /// What the camera that is or was open knows of its lens.
+  const std::optional<CameraIntrinsics>& intrinsics() const { return info_.intrinsics; }
 
  private:
   bool reopen();
   std::optional<CapturedFrame> take(Result<DeviceFrame, NoFrame> result);
   void wait_longer();
+  void forget_stream();
   void lose(CaptureState state, const std::string& why);
 
   Open open_;
@@ -70,7 +75,7 @@ class Capture {
   std::string fault_;
   Duration silent_for_{};
   bool was_open_ = false;
-  std::uint64_t reconnects_ = 0, dropped_before_ = 0;
+  std::uint64_t reconnects_ = 0, frames_before_ = 0, dropped_before_ = 0, clock_restarts_before_ = 0;
   DropCounts<NoFrame> missed_;
 };
 

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "lodestar/base/common/result.hpp"
 #include "lodestar/base/common/stamp.hpp"
+#include "lodestar/base/geometry/camera_model.hpp"
 #include "lodestar/sensing/camera/camera_settings.hpp"
 
 namespace lodestar {
@@ -31,7 +33,6 @@ struct FrameMemory {
 };
 
 /// Gives memory of so many bytes. Drivers that can write there directly do, so that nobody copies the frame.
-/// Called from the source's own threads, too.
 using FrameAllocator = std::function<FrameMemory(std::size_t bytes)>;
 
 /// One instant by the device's counter and by the host's clock.
@@ -65,11 +66,11 @@ struct SourceClock {
 
 /// What runs, once started.
 struct SourceInfo {
-  std::string name;         ///< maker, model, serial number
-  std::string calibration;  ///< a name for its calibration: letters, digits, underscores
+  std::string name;  ///< URI, maker, model, serial number
   SourceClock clock;
-  double exposure_s = 0;   ///< as the camera says; 0: unknown
-  bool triggered = false;  ///< frames come when someone else wants them: silence is no fault
+  double exposure_s = 0;                       ///< as the camera says; 0: unknown
+  std::optional<CameraIntrinsics> intrinsics;  ///< where the source itself knows its lens
+  bool triggered = false;                      ///< frames come when someone else wants them: silence is no fault
 };
 
 /// Why there was no frame.

@@ -3,7 +3,6 @@
 #include <arv.h>
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
 namespace lodestar {
@@ -28,12 +27,6 @@ constexpr Format kFormats[] = {{"mono8", "Mono8", ARV_PIXEL_FORMAT_MONO_8, 8},
                                {"mono16", "Mono16", ARV_PIXEL_FORMAT_MONO_16, 16},
                                {"mono16", "Mono12", ARV_PIXEL_FORMAT_MONO_12, 16},
                                {"mono16", "Mono10", ARV_PIXEL_FORMAT_MONO_10, 16}};
-
-std::string in_calibration_name(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return text;
-}
 
 void delete_owner(void* owner) { delete static_cast<std::shared_ptr<void>*>(owner); }
 
@@ -166,7 +159,6 @@ SourceInfo AravisSource::info(const CameraSettings& settings) {
 
   SourceInfo info;
   info.name = name_ + " " + vendor + " " + model + (number.empty() ? "" : " " + number);
-  info.calibration = in_calibration_name(vendor + "_" + model + (number.empty() ? "" : "_" + number));
   info.triggered = !settings.trigger.empty();
   if (call(arv_camera_is_exposure_time_available)) info.exposure_s = call(arv_camera_get_exposure_time) * 1e-6;
   const bool wide_ids = arv_camera_is_uv_device(camera_.get()) ||

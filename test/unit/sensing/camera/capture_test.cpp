@@ -78,8 +78,8 @@ class CaptureTest : public testing::Test {
 TEST_F(CaptureTest, FramesCome) {
   script_.steps.assign(5, Step::kFrame);
   EXPECT_EQ(frames_of(5), 5);
-  EXPECT_EQ(capture_.state(), CaptureState::kRunning);
-  EXPECT_EQ(capture_.reconnects(), 0u);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().reconnects, 0u);
 }
 
 TEST_F(CaptureTest, SilenceIsToldWithinHalfASecondAndThenTheCameraIsOpenedAnew) {
@@ -87,20 +87,20 @@ TEST_F(CaptureTest, SilenceIsToldWithinHalfASecondAndThenTheCameraIsOpenedAnew) 
   script_.steps.insert(script_.steps.end(), 5, Step::kTimeout);
   script_.steps.push_back(Step::kFrame);
   EXPECT_EQ(frames_of(6), 1);
-  EXPECT_EQ(capture_.state(), CaptureState::kSilent);
-  EXPECT_EQ(capture_.fault(), "scripted is silent");
+  EXPECT_EQ(capture_.report().state, CaptureState::kSilent);
+  EXPECT_EQ(capture_.report().fault, "scripted is silent");
   EXPECT_EQ(script_.opened, 1);
   EXPECT_EQ(frames_of(1), 1);
   EXPECT_EQ(script_.opened, 2);
-  EXPECT_EQ(capture_.state(), CaptureState::kRunning);
-  EXPECT_EQ(capture_.reconnects(), 1u);
-  EXPECT_EQ(capture_.fault(), "");
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().reconnects, 1u);
+  EXPECT_EQ(capture_.report().fault, "");
 }
 
 TEST_F(CaptureTest, ACameraThatWaitsForItsTriggerMayBeSilent) {
   script_.triggered = true;
   EXPECT_EQ(frames_of(50), 0);
-  EXPECT_EQ(capture_.state(), CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
   EXPECT_EQ(script_.opened, 1);
 }
 
@@ -108,25 +108,25 @@ TEST_F(CaptureTest, ACameraThatIsGoneIsTriedUntilItIsBack) {
   script_.steps = {Step::kFrame, Step::kGone, Step::kFrame};
   script_.there = {true, false, false, true};
   EXPECT_EQ(frames_of(2), 1);
-  EXPECT_EQ(capture_.fault(), "gone");
+  EXPECT_EQ(capture_.report().fault, "gone");
   EXPECT_EQ(frames_of(2), 0);
-  EXPECT_EQ(capture_.fault(), "not there");
-  EXPECT_EQ(capture_.state(), CaptureState::kClosed);
+  EXPECT_EQ(capture_.report().fault, "not there");
+  EXPECT_EQ(capture_.report().state, CaptureState::kClosed);
   EXPECT_EQ(frames_of(1), 1);
-  EXPECT_EQ(capture_.reconnects(), 1u);
+  EXPECT_EQ(capture_.report().reconnects, 1u);
 }
 
 TEST_F(CaptureTest, LostPacketsAreCountedAndAreNoSilence) {
   script_.steps.assign(20, Step::kIncomplete);
   EXPECT_EQ(frames_of(20), 0);
-  EXPECT_EQ(capture_.missed()[NoFrame::kIncomplete], 20u);
-  EXPECT_EQ(capture_.state(), CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().missed[NoFrame::kIncomplete], 20u);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
 }
 
 TEST_F(CaptureTest, ARecordingEnds) {
   script_.steps = {Step::kFrame, Step::kEnd};
   EXPECT_EQ(frames_of(10), 1);
-  EXPECT_EQ(capture_.state(), CaptureState::kOver);
+  EXPECT_EQ(capture_.report().state, CaptureState::kOver);
   EXPECT_EQ(script_.opened, 1);
 }
 
