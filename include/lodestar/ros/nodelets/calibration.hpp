@@ -1,6 +1,7 @@
 #pragma once
 
 #include <camera_info_manager/camera_info_manager.h>
+#include <sensor_msgs/Image.h>
 
 #include <mutex>
 #include <optional>

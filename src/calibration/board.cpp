@@ -1,0 +1,117 @@
+#include "lodestar/calibration/board.hpp"
+
+#include <algorithm>
+#include <opencv2/aruco/charuco.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace lodestar {
+namespace {
+
+constexpr std::size_t kFewestPoints = 8;
+
+cv::Mat grey8(const Image& image) {
+  const cv::Mat raw(image.height_px, image.width_px, image.bits == 8 ? CV_8UC1 : CV_16UC1,
+                    const_cast<std::uint8_t*>(image.data), image.stride_bytes);
+  if (image.bits == 8) return raw;
+  cv::Mat grey;
+  cv::normalize(raw, grey, 0, 255, cv::NORM_MINMAX, CV_8U);
+  return grey;
+}
+
+Eigen::Vector2d eigen(const cv::Point2f& point) { return {point.x, point.y}; }
+
+BoardView chessboard(const cv::Mat& image, const Board& board) {
+  const cv::Size inner(board.columns - 1, board.rows - 1);
+  std::vector<cv::Point2f> corners;
+  if (!cv::findChessboardCornersSB(image, inner, corners, cv::CALIB_CB_ACCURACY | cv::CALIB_CB_NORMALIZE_IMAGE))
+    return {};
+  BoardView view;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto row = i / static_cast<std::size_t>(inner.width), column = i % static_cast<std::size_t>(inner.width);
+    view.push_back({board.square_m * Eigen::Vector2d(column, row), eigen(corners[i])});
+  }
+  return view;
+}
+
+struct Markers {
+  std::vector<std::vector<cv::Point2f>> corners;
+  std::vector<int> ids;
+};
+
+Markers find_markers(const cv::Mat& image, const cv::Ptr<cv::aruco::Dictionary>& dictionary, int border_bits) {
+  const auto parameters = cv::aruco::DetectorParameters::create();
+  parameters->markerBorderBits = border_bits;
+  parameters->minMarkerPerimeterRate = 0.02;
+  Markers markers;
+  cv::aruco::detectMarkers(image, dictionary, markers.corners, markers.ids, parameters);
+  return markers;
+}
+
+BoardView charuco(const cv::Mat& image, const Board& board) {
+  const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_6X6_250);
+  const auto layout = cv::aruco::CharucoBoard::create(board.columns, board.rows, static_cast<float>(board.square_m),
+                                                      static_cast<float>(board.marker_m), dictionary);
+  const Markers markers = find_markers(image, dictionary, 1);
+  if (markers.ids.empty()) return {};
+  std::vector<cv::Point2f> corners;
+  std::vector<int> ids;
+  cv::aruco::interpolateCornersCharuco(markers.corners, markers.ids, image, layout, corners, ids);
+  BoardView view;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const cv::Point3f place = layout->chessboardCorners[static_cast<std::size_t>(ids[i])];
+    view.push_back({Eigen::Vector2d(place.x, place.y), eigen(corners[i])});
+  }
+  return view;
+}
+
+/// Half the window for a tag's corners: within a third of its shortest side, so that no other edge is in it.
+int window_px(const std::vector<cv::Point2f>& tag) {
+  double shortest = 1e9;
+  for (std::size_t i = 0; i < 4; ++i) shortest = std::min(shortest, cv::norm(tag[i] - tag[(i + 1) % 4]));
+  return std::clamp(static_cast<int>(shortest / 12), 2, 5);
+}
+
+BoardView aprilgrid(const cv::Mat& image, const Board& board) {
+  Markers tags = find_markers(image, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11), 2);
+  const cv::TermCriteria until(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 30, 0.001);
+  BoardView view;
+  for (std::size_t i = 0; i < tags.ids.size(); ++i) {
+    if (tags.ids[i] >= board.columns * board.rows) continue;
+    const int window = window_px(tags.corners[i]);
+    cv::cornerSubPix(image, tags.corners[i], cv::Size(window, window), cv::Size(-1, -1), until);
+    const Eigen::Vector2d lower_left =
+        (board.square_m + board.marker_m) * Eigen::Vector2d(tags.ids[i] % board.columns, tags.ids[i] / board.columns);
+    // Clockwise from the upper left, as OpenCV lists them; the board's y points up.
+    const Eigen::Vector2d corners[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      view.push_back({lower_left + board.square_m * corners[corner], eigen(tags.corners[i][corner])});
+  }
+  return view;
+}
+
+}  // namespace
+
+std::string fault_of(const Board& board) {
+  const bool grid = board.kind == Board::Kind::kAprilgrid;
+  const int least = grid ? 1 : 3;
+  if (board.columns < least || board.rows < least || board.columns > 100 || board.rows > 100)
+    return "the board has " + std::to_string(board.columns) + " x " + std::to_string(board.rows) + ", it must have " +
+           std::to_string(least) + " to 100 each way";
+  if (!(board.square_m > 0)) return "the side of a " + std::string(grid ? "tag" : "square") + " must be above 0 m";
+  if (board.kind == Board::Kind::kCharuco && !(board.marker_m > 0 && board.marker_m < board.square_m))
+    return "a ChArUco board's markers must be smaller than its squares, and above 0 m";
+  if (grid && !(board.marker_m > 0)) return "the gap between two tags must be above 0 m";
+  return "";
+}
+
+std::optional<BoardView> find_board(const Image& image, const Board& board) {
+  const cv::Mat grey = grey8(image);
+  const BoardView view = board.kind == Board::Kind::kChessboard ? chessboard(grey, board)
+                         : board.kind == Board::Kind::kCharuco  ? charuco(grey, board)
+                                                                : aprilgrid(grey, board);
+  if (view.size() < kFewestPoints) return std::nullopt;
+  return view;
+}
+
+}  // namespace lodestar
