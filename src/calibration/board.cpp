@@ -9,6 +9,8 @@ namespace lodestar {
 namespace {
 
 constexpr std::size_t kFewestPoints = 8;
+constexpr double kWindow = 0.45;  // of the space that a mark has to itself
+constexpr int kSmallestWindow_px = 2, kLargestWindow_px = 8;
 
 cv::Mat grey8(const Image& image) {
   const cv::Mat raw(image.height_px, image.width_px, image.bits == 8 ? CV_8UC1 : CV_16UC1,
@@ -24,8 +26,7 @@ Eigen::Vector2d eigen(const cv::Point2f& point) { return {point.x, point.y}; }
 BoardView chessboard(const cv::Mat& image, const Board& board) {
   const cv::Size inner(board.columns - 1, board.rows - 1);
   std::vector<cv::Point2f> corners;
-  if (!cv::findChessboardCornersSB(image, inner, corners, cv::CALIB_CB_ACCURACY | cv::CALIB_CB_NORMALIZE_IMAGE))
-    return {};
+  if (!cv::findChessboardCornersSB(image, inner, corners, cv::CALIB_CB_NORMALIZE_IMAGE)) return {};
   BoardView view;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto row = i / static_cast<std::size_t>(inner.width), column = i % static_cast<std::size_t>(inner.width);
@@ -65,27 +66,51 @@ BoardView charuco(const cv::Mat& image, const Board& board) {
   return view;
 }
 
-/// Half the window for a tag's corners: within a third of its shortest side, so that no other edge is in it.
-int window_px(const std::vector<cv::Point2f>& tag) {
-  double shortest = 1e9;
-  for (std::size_t i = 0; i < 4; ++i) shortest = std::min(shortest, cv::norm(tag[i] - tag[(i + 1) % 4]));
-  return std::clamp(static_cast<int>(shortest / 12), 2, 5);
-}
-
 BoardView aprilgrid(const cv::Mat& image, const Board& board) {
-  Markers tags = find_markers(image, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11), 2);
-  const cv::TermCriteria until(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 30, 0.001);
+  const Markers tags = find_markers(image, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11), 2);
   BoardView view;
   for (std::size_t i = 0; i < tags.ids.size(); ++i) {
     if (tags.ids[i] >= board.columns * board.rows) continue;
-    const int window = window_px(tags.corners[i]);
-    cv::cornerSubPix(image, tags.corners[i], cv::Size(window, window), cv::Size(-1, -1), until);
     const Eigen::Vector2d lower_left =
         (board.square_m + board.marker_m) * Eigen::Vector2d(tags.ids[i] % board.columns, tags.ids[i] / board.columns);
     // Clockwise from the upper left, as OpenCV lists them; the board's y points up.
     const Eigen::Vector2d corners[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     for (std::size_t corner = 0; corner < 4; ++corner)
       view.push_back({lower_left + board.square_m * corners[corner], eigen(tags.corners[i][corner])});
+  }
+  return view;
+}
+
+/// Around a mark no other edge crosses within half of this, on the board.
+double free_space_m(const Board& board) {
+  switch (board.kind) {
+    case Board::Kind::kChessboard:
+      return board.square_m;
+    case Board::Kind::kCharuco:
+      return board.square_m - board.marker_m;
+    default:
+      return board.marker_m;
+  }
+}
+
+/// Each mark is where four fields meet, and its centre the point that all gradients around it are square to. The window
+/// follows the scale of the image there, by the nearest other mark. A mark that moves out of its window is none.
+BoardView refined(const cv::Mat& image, const Board& board, const BoardView& coarse) {
+  const cv::TermCriteria until(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 50, 0.001);
+  BoardView view;
+  for (const BoardPoint& point : coarse) {
+    double scale_px_m = 1e9;
+    for (const BoardPoint& other : coarse) {
+      const double apart_m = (other.board_m - point.board_m).norm();
+      if (apart_m > 0 && apart_m < 1.5 * board.square_m)
+        scale_px_m = std::min(scale_px_m, (other.pixel - point.pixel).norm() / apart_m);
+    }
+    const int half_px = std::min(static_cast<int>(kWindow * free_space_m(board) * scale_px_m), kLargestWindow_px);
+    if (half_px < kSmallestWindow_px || scale_px_m > 1e8) continue;
+    std::vector<cv::Point2f> centre = {{static_cast<float>(point.pixel.x()), static_cast<float>(point.pixel.y())}};
+    cv::cornerSubPix(image, centre, cv::Size(half_px, half_px), cv::Size(-1, -1), until);
+    const Eigen::Vector2d moved = eigen(centre.front()) - point.pixel;
+    if (moved.norm() < half_px) view.push_back({point.board_m, eigen(centre.front())});
   }
   return view;
 }
@@ -107,9 +132,10 @@ std::string fault_of(const Board& board) {
 
 std::optional<BoardView> find_board(const Image& image, const Board& board) {
   const cv::Mat grey = grey8(image);
-  const BoardView view = board.kind == Board::Kind::kChessboard ? chessboard(grey, board)
-                         : board.kind == Board::Kind::kCharuco  ? charuco(grey, board)
-                                                                : aprilgrid(grey, board);
+  const BoardView coarse = board.kind == Board::Kind::kChessboard ? chessboard(grey, board)
+                           : board.kind == Board::Kind::kCharuco  ? charuco(grey, board)
+                                                                  : aprilgrid(grey, board);
+  const BoardView view = refined(grey, board, coarse);
   if (view.size() < kFewestPoints) return std::nullopt;
   return view;
 }

@@ -1,5 +1,6 @@
 #include "board_pose.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
 namespace lodestar {

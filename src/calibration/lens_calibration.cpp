@@ -97,7 +97,7 @@ class Adjustment {
   std::optional<Eigen::Matrix<double, 8, 8, Eigen::RowMajor>> lens_covariance() {
     ceres::Covariance covariance(ceres::Covariance::Options{});
     const double* const lens = trial_.lens.data();
-    if (!covariance.Compute({{lens, lens}}, &problem_)) return std::nullopt;
+    if (!covariance.Compute(std::vector<const double*>{lens}, &problem_)) return std::nullopt;
     Eigen::Matrix<double, 8, 8, Eigen::RowMajor> P;
     covariance.GetCovarianceBlock(lens, lens, P.data());
     const double unknowns = 8 + 6.0 * static_cast<double>(trial_.places.size());
@@ -124,33 +124,58 @@ std::optional<Trial> best_start(const std::vector<BoardView>& views, int width_p
   return best;
 }
 
+Eigen::Vector2d residual_px(const Trial& trial, std::size_t view, const BoardPoint& point) {
+  Eigen::Vector2d residual;
+  Reprojection{point}(trial.lens.data(), trial.places[view].data(), residual.data());
+  return residual;
+}
+
+/// Leaves out marks that are off by several times the median; how many.
+int drop_outliers(std::vector<BoardView>& views, const Trial& trial) {
+  constexpr double kMedians = 6;  // of normal errors' length: seven sigma
+  std::vector<double> off_px;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (const BoardPoint& point : views[i]) off_px.push_back(residual_px(trial, i, point).norm());
+  const auto middle = off_px.begin() + static_cast<std::ptrdiff_t>(off_px.size() / 2);
+  std::nth_element(off_px.begin(), middle, off_px.end());
+  const double limit_px = kMedians * *middle;
+
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto is_off = [&](const BoardPoint& point) { return residual_px(trial, i, point).norm() > limit_px; };
+    views[i].erase(std::remove_if(views[i].begin(), views[i].end(), is_off), views[i].end());
+    left += views[i].size();
+  }
+  return static_cast<int>(off_px.size() - left);
+}
+
 void add_residuals(const std::vector<BoardView>& views, const Trial& trial, LensCalibration& calibration) {
   for (std::size_t i = 0; i < views.size(); ++i) {
-    std::vector<Eigen::Vector2d> residuals;
     double sum = 0;
     for (const BoardPoint& point : views[i]) {
-      Eigen::Vector2d residual;
-      Reprojection{point}(trial.lens.data(), trial.places[i].data(), residual.data());
-      sum += residual.squaredNorm();
-      residuals.push_back(residual);
+      calibration.marks.push_back({point.pixel, residual_px(trial, i, point)});
+      sum += calibration.marks.back().residual_px.squaredNorm();
     }
-    calibration.view_rms_px.push_back(std::sqrt(sum / (2.0 * static_cast<double>(views[i].size()))));
-    calibration.residual.push_back(std::move(residuals));
+    calibration.view_rms_px.push_back(
+        std::sqrt(sum / (2.0 * std::max<double>(1, static_cast<double>(views[i].size())))));
   }
 }
 
 }  // namespace
 
-Result<LensCalibration, std::string> calibrate_lens(const std::vector<BoardView>& views, int width_px, int height_px) {
+Result<LensCalibration, std::string> calibrate_lens(std::vector<BoardView> views, int width_px, int height_px) {
+  constexpr int kIterations = 100;
   if (views.size() < kFewestViews)
     return "the board is seen in " + std::to_string(views.size()) + " images, at least " +
            std::to_string(kFewestViews) + " are needed, 20 are good";
   auto trial = best_start(views, width_px, height_px);
   if (!trial) return std::string("the board's place cannot be told from a view: its marks lie in a line");
-  Adjustment adjustment(views, *trial);
-  adjustment.minimize(100);
-
+  Adjustment(views, *trial).minimize(kIterations);
   LensCalibration calibration;
+  calibration.outliers = drop_outliers(views, *trial);
+  Adjustment adjustment(views, *trial);
+  adjustment.minimize(kIterations);
+
   calibration.intrinsics = intrinsics_of(trial->lens, width_px, height_px);
   calibration.rms_px = trial->rms_px;
   const auto camera = CameraModel::create(calibration.intrinsics);

@@ -182,7 +182,7 @@ Result<MountCalibration, std::string> Adjustment::run() {
 
   ceres::Covariance covariance(ceres::Covariance::Options{});
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> P;
-  if (!covariance.Compute({{mount_.data(), mount_.data()}}, &problem_) ||
+  if (!covariance.Compute(std::vector<const double*>{mount_.data()}, &problem_) ||
       !covariance.GetCovarianceBlock(mount_.data(), mount_.data(), P.data()))
     return std::string(
         "the stands leave a part of the mount open: stand at more headings, and at two places a few metres apart");
