@@ -19,6 +19,7 @@ struct PixelFormat {
   const char* name;
   std::uint32_t code;
 };
+/// The first that a camera has is taken unless another is asked for.
 constexpr PixelFormat kFormats[] = {{"mono8", V4L2_PIX_FMT_GREY},
                                     {"mono16", V4L2_PIX_FMT_Y16},
                                     {"yuyv", V4L2_PIX_FMT_YUYV},
@@ -108,17 +109,21 @@ double V4l2Source::exposure_s() {
   return port_->control(VIDIOC_G_CTRL, &exposure) == 0 ? exposure.value * kExposureUnit_s : 0;
 }
 
+bool V4l2Source::offers(std::uint32_t format) {
+  auto offered = of_capture<v4l2_fmtdesc>();
+  for (; port_->control(VIDIOC_ENUM_FMT, &offered) == 0; ++offered.index)
+    if (offered.pixelformat == format) return true;
+  return false;
+}
+
 CameraLimits V4l2Source::limits() {
   CameraLimits limits;
   limits.exposure_s = range(V4L2_CID_EXPOSURE_ABSOLUTE, kExposureUnit_s);
   limits.gain = range(V4L2_CID_GAIN, 1);
-  auto offered = of_capture<v4l2_fmtdesc>();
-  for (; port_->control(VIDIOC_ENUM_FMT, &offered) == 0; ++offered.index) {
-    for (const PixelFormat& format : kFormats) {
-      if (format.code != offered.pixelformat) continue;
-      limits.pixel_formats.emplace_back(format.name);
-      read_sizes(format.code, limits);
-    }
+  for (const PixelFormat& format : kFormats) {
+    if (!offers(format.code)) continue;
+    limits.pixel_formats.emplace_back(format.name);
+    read_sizes(format.code, limits);
   }
   return limits;
 }

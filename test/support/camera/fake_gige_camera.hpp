@@ -1,6 +1,8 @@
 #pragma once
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,15 +12,20 @@
 
 namespace lodestar::test {
 
-/// Aravis' fake GigE Vision camera as a process of its own, on 127.0.0.1: one at a time on a machine.
+/// Aravis' fake GigE Vision camera as a process of its own, on 127.0.0.1. It has the port of all such cameras: whoever
+/// else on this machine tests with one waits until this one is gone.
 class FakeGigeCamera {
  public:
   static constexpr const char* kUri = "gige:127.0.0.1";
 
   explicit FakeGigeCamera(int lost_packets_per_thousand = 0) : lost_(std::to_string(lost_packets_per_thousand)) {
+    flock(lock_, LOCK_EX);
     plug_in();
   }
-  ~FakeGigeCamera() { unplug(); }
+  ~FakeGigeCamera() {
+    unplug();
+    close(lock_);
+  }
   FakeGigeCamera(const FakeGigeCamera&) = delete;
   FakeGigeCamera& operator=(const FakeGigeCamera&) = delete;
 
@@ -43,6 +50,7 @@ class FakeGigeCamera {
 
  private:
   static constexpr const char* kProgram = "/usr/bin/arv-fake-gv-camera-0.8";
+  int lock_ = open("/tmp/lodestar_fake_gige_camera.lock", O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   std::string lost_;
   pid_t process_ = 0;
 };

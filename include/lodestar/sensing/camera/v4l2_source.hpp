@@ -34,6 +34,7 @@ class V4l2Source : public FrameSource {
   void set(std::uint32_t control, double value);
   void set_if_there(std::uint32_t control, std::int32_t value);
   double exposure_s();
+  bool offers(std::uint32_t format);
   CameraLimits limits();
   void read_sizes(std::uint32_t format, CameraLimits& limits);
   void read_rates(CameraLimits& limits);

@@ -67,6 +67,7 @@ class AravisSource : public FrameSource {
   CameraLimits limits();
   void set_format(const CameraSettings& settings);
   void make_manual();
+  void refuse_beyond_limits(const CameraSettings& settings);
   void apply(const CameraSettings& settings);
   SourceInfo info(const CameraSettings& settings);
   void start_stream();
@@ -141,11 +142,24 @@ void AravisSource::make_manual() {
   if (call(arv_camera_is_black_level_auto_available)) call(arv_camera_set_black_level_auto, ARV_AUTO_OFF);
 }
 
+void AravisSource::refuse_beyond_limits(const CameraSettings& settings) {
+  const Faults faults = check_settings(settings, limits(), name_);
+  if (!faults.empty()) throw CameraRefusal(faults);
+}
+
+// The ranges of exposure and rate depend on one another: first the exposure without a rate, then the rate.
 void AravisSource::apply(const CameraSettings& settings) {
   call(arv_camera_set_acquisition_mode, ARV_ACQUISITION_MODE_CONTINUOUS);
   call(arv_camera_clear_triggers);
+  if (call(arv_camera_is_feature_available, "AcquisitionFrameRateEnable"))
+    call(arv_camera_set_boolean, "AcquisitionFrameRateEnable", FALSE);
+  CameraSettings without_rate = settings;
+  without_rate.rate_hz.reset();
+  refuse_beyond_limits(without_rate);
+  set_format(settings);
   if (settings.exposure_s) call(arv_camera_set_exposure_time, *settings.exposure_s * 1e6);
   if (settings.gain) call(arv_camera_set_gain, *settings.gain);
+  refuse_beyond_limits(settings);
   if (settings.rate_hz) call(arv_camera_set_frame_rate, *settings.rate_hz);
   if (!settings.trigger.empty()) call(arv_camera_set_trigger, settings.trigger.c_str());
 }
@@ -171,10 +185,7 @@ SourceInfo AravisSource::info(const CameraSettings& settings) {
 SourceInfo AravisSource::start(const CameraSettings& settings, const FrameAllocator& allocate) {
   allocate_ = allocate;
   call(arv_camera_stop_acquisition);
-  const Faults faults = check_settings(settings, limits(), name_);
-  if (!faults.empty()) throw CameraRefusal(faults);
   if (limits().pixel_formats.empty()) throw CameraRefusal({{name_, 0, "it has neither mono8 nor mono16"}});
-  set_format(settings);
   make_manual();
   apply(settings);
   const SourceInfo started = info(settings);
