@@ -8,28 +8,12 @@
 #include <opencv2/core.hpp>
 
 #include "pixels.hpp"
+#include "v4l2_limits.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr std::uint32_t kBuffers = 4;
-constexpr double kExposureUnit_s = 100e-6;  // of V4L2_CID_EXPOSURE_ABSOLUTE
-
-struct PixelFormat {
-  const char* name;
-  std::uint32_t code;
-};
-/// The first that a camera has is taken unless another is asked for.
-constexpr PixelFormat kFormats[] = {{"mono8", V4L2_PIX_FMT_GREY},
-                                    {"mono16", V4L2_PIX_FMT_Y16},
-                                    {"yuyv", V4L2_PIX_FMT_YUYV},
-                                    {"mjpeg", V4L2_PIX_FMT_MJPEG}};
-
-std::uint32_t code_of(const std::string& name) {
-  return std::find_if(std::begin(kFormats), std::end(kFormats), [&](const PixelFormat& f) { return f.name == name; })
-      ->code;
-}
-
 std::int64_t now_ns(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
@@ -41,28 +25,11 @@ ClockPair both_clocks() {
   return {static_cast<std::uint64_t>(now_ns(CLOCK_MONOTONIC)), Stamp(Duration(now_ns(CLOCK_REALTIME)))};
 }
 
-template <class Structure>
-Structure of_capture() {
-  Structure structure{};
-  structure.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  return structure;
-}
-
 v4l2_buffer mapped_buffer(std::uint32_t index) {
   auto buffer = of_capture<v4l2_buffer>();
   buffer.memory = V4L2_MEMORY_MMAP;
   buffer.index = index;
   return buffer;
-}
-
-void widen(std::optional<SettingRange>& range, double lowest, double highest) {
-  if (!range) range = SettingRange{lowest, highest};
-  range->lowest = std::min(range->lowest, lowest);
-  range->highest = std::max(range->highest, highest);
-}
-
-double rate_of(const v4l2_fract& interval) {
-  return static_cast<double>(interval.denominator) / static_cast<double>(interval.numerator);
 }
 
 }  // namespace
@@ -82,86 +49,24 @@ void V4l2Source::demand(unsigned long request, void* argument, const std::string
 
 void V4l2Source::refuse(const std::string& what) const { throw CameraRefusal({{name_, 0, what}}); }
 
-std::optional<v4l2_queryctrl> V4l2Source::query(std::uint32_t control) {
-  v4l2_queryctrl answer{};
-  answer.id = control;
-  if (port_->control(VIDIOC_QUERYCTRL, &answer) != 0 || (answer.flags & V4L2_CTRL_FLAG_DISABLED)) return std::nullopt;
-  return answer;
-}
-
-std::optional<SettingRange> V4l2Source::range(std::uint32_t control, double unit) {
-  const auto answer = query(control);
-  if (!answer) return std::nullopt;
-  return SettingRange{answer->minimum * unit, answer->maximum * unit};
-}
-
 void V4l2Source::set(std::uint32_t control, double value) {
   v4l2_control setting{control, static_cast<std::int32_t>(std::lround(value))};
   demand(VIDIOC_S_CTRL, &setting, "setting a control");
 }
 
 void V4l2Source::set_if_there(std::uint32_t control, std::int32_t value) {
-  if (query(control)) set(control, value);
+  if (v4l2_query(*port_, control)) set(control, value);
 }
 
 double V4l2Source::exposure_s() {
   v4l2_control exposure{V4L2_CID_EXPOSURE_ABSOLUTE, 0};
-  return port_->control(VIDIOC_G_CTRL, &exposure) == 0 ? exposure.value * kExposureUnit_s : 0;
-}
-
-bool V4l2Source::offers(std::uint32_t format) {
-  auto offered = of_capture<v4l2_fmtdesc>();
-  for (; port_->control(VIDIOC_ENUM_FMT, &offered) == 0; ++offered.index)
-    if (offered.pixelformat == format) return true;
-  return false;
-}
-
-CameraLimits V4l2Source::limits() {
-  CameraLimits limits;
-  limits.exposure_s = range(V4L2_CID_EXPOSURE_ABSOLUTE, kExposureUnit_s);
-  limits.gain = range(V4L2_CID_GAIN, 1);
-  for (const PixelFormat& format : kFormats) {
-    if (!offers(format.code)) continue;
-    limits.pixel_formats.emplace_back(format.name);
-    read_sizes(format.code, limits);
-  }
-  return limits;
-}
-
-void V4l2Source::read_sizes(std::uint32_t format, CameraLimits& limits) {
-  v4l2_frmsizeenum size{};
-  size.pixel_format = format;
-  for (; port_->control(VIDIOC_ENUM_FRAMESIZES, &size) == 0; ++size.index) {
-    if (size.type == V4L2_FRMSIZE_TYPE_DISCRETE) {
-      widen(limits.width_px, size.discrete.width, size.discrete.width);
-      widen(limits.height_px, size.discrete.height, size.discrete.height);
-      continue;
-    }
-    widen(limits.width_px, size.stepwise.min_width, size.stepwise.max_width);
-    widen(limits.height_px, size.stepwise.min_height, size.stepwise.max_height);
-    return;
-  }
-}
-
-void V4l2Source::read_rates(CameraLimits& limits) {
-  v4l2_frmivalenum interval{};
-  interval.pixel_format = format_.pixelformat;
-  interval.width = format_.width;
-  interval.height = format_.height;
-  for (; port_->control(VIDIOC_ENUM_FRAMEINTERVALS, &interval) == 0; ++interval.index) {
-    if (interval.type == V4L2_FRMIVAL_TYPE_DISCRETE) {
-      widen(limits.rate_hz, rate_of(interval.discrete), rate_of(interval.discrete));
-      continue;
-    }
-    widen(limits.rate_hz, rate_of(interval.stepwise.max), rate_of(interval.stepwise.min));
-    return;
-  }
+  return port_->control(VIDIOC_G_CTRL, &exposure) == 0 ? exposure.value * kV4l2ExposureUnit_s : 0;
 }
 
 void V4l2Source::set_format(const CameraSettings& settings) {
   auto format = of_capture<v4l2_format>();
   demand(VIDIOC_G_FMT, &format, "asking for its format");
-  format.fmt.pix.pixelformat = code_of(settings.pixel_format);
+  format.fmt.pix.pixelformat = v4l2_format_of(settings.pixel_format);
   if (settings.width_px) format.fmt.pix.width = static_cast<std::uint32_t>(*settings.width_px);
   if (settings.height_px) format.fmt.pix.height = static_cast<std::uint32_t>(*settings.height_px);
   format.fmt.pix.field = V4L2_FIELD_NONE;
@@ -181,7 +86,7 @@ void V4l2Source::set_rate(double rate_hz) {
   parameters.parm.capture.timeperframe = {kThousandths,
                                           static_cast<std::uint32_t>(std::lround(rate_hz * kThousandths))};
   demand(VIDIOC_S_PARM, &parameters, "setting its frame rate");
-  const double got_hz = rate_of(parameters.parm.capture.timeperframe);
+  const double got_hz = v4l2_rate(parameters.parm.capture.timeperframe);
   if (std::abs(got_hz - rate_hz) < 0.01 * rate_hz) return;
   refuse("rate_hz is " + std::to_string(rate_hz) + ", the nearest that the camera has is " + std::to_string(got_hz));
 }
@@ -193,7 +98,7 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
       capability.capabilities & V4L2_CAP_DEVICE_CAPS ? capability.device_caps : capability.capabilities;
   if (!(can & V4L2_CAP_VIDEO_CAPTURE) || !(can & V4L2_CAP_STREAMING)) refuse("it is no camera that streams");
 
-  CameraLimits limits = this->limits();
+  CameraLimits limits = v4l2_limits(*port_);
   if (limits.pixel_formats.empty()) refuse("it has none of mono8, mono16, yuyv, mjpeg");
   CameraSettings chosen = settings;
   chosen.rate_hz.reset();  // its range depends on the format
@@ -201,7 +106,7 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
   if (!faults.empty()) throw CameraRefusal(faults);
   if (chosen.pixel_format.empty()) chosen.pixel_format = limits.pixel_formats.front();
   set_format(chosen);
-  read_rates(limits);
+  limits.rate_hz = v4l2_rates(*port_, format_);
   faults = check_settings(settings, limits, name_);
   if (!faults.empty()) throw CameraRefusal(faults);
 
@@ -209,7 +114,7 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
   set_if_there(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);  // it would lower the rate in the dark
   set_if_there(V4L2_CID_AUTOGAIN, 0);
   if (settings.rate_hz) set_rate(*settings.rate_hz);
-  if (settings.exposure_s) set(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kExposureUnit_s);
+  if (settings.exposure_s) set(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kV4l2ExposureUnit_s);
   if (settings.gain) set(V4L2_CID_GAIN, *settings.gain);
 
   SourceInfo info;

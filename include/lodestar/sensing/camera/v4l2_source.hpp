@@ -29,15 +29,9 @@ class V4l2Source : public FrameSource {
   };
 
   void demand(unsigned long request, void* argument, const std::string& doing);
-  std::optional<v4l2_queryctrl> query(std::uint32_t control);
-  std::optional<SettingRange> range(std::uint32_t control, double unit);
   void set(std::uint32_t control, double value);
   void set_if_there(std::uint32_t control, std::int32_t value);
   double exposure_s();
-  bool offers(std::uint32_t format);
-  CameraLimits limits();
-  void read_sizes(std::uint32_t format, CameraLimits& limits);
-  void read_rates(CameraLimits& limits);
   void set_format(const CameraSettings& settings);
   void set_rate(double rate_hz);
   void map_buffers(SourceClock& clock);

@@ -24,11 +24,11 @@ class AravisSourceTest : public testing::Test {
   Capture capture() {
     return Capture([] { return open_source(FakeGigeCamera::kUri); }, settings_, memory_.allocator(), 0);
   }
-  int frames_within(Capture& capture, double seconds) {
-    int frames = 0;
-    const auto end = std::chrono::steady_clock::now() + from_seconds(seconds);
-    while (std::chrono::steady_clock::now() < end) frames += capture.next().has_value();
-    return frames;
+  /// However slow the machine is.
+  bool gets(Capture& capture, int frames) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (frames > 0 && std::chrono::steady_clock::now() < end) frames -= capture.next().has_value();
+    return frames == 0;
   }
 
   CameraSettings settings_;
@@ -85,14 +85,15 @@ TEST_F(AravisSourceTest, LimitsAreTheCameras) {
 TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const FakeGigeCamera camera;
   Capture capture = this->capture();
-  EXPECT_GT(frames_within(capture, 1.5), 60);
-  EXPECT_NEAR(capture.report().rate_hz, 100, 15);
+  ASSERT_TRUE(gets(capture, 60));
   EXPECT_EQ(capture.report().clock_restarts, 0u);
   // It stamps by the host's own clock, before it paints the frame and sends it: what is left is that, the same for all.
   std::vector<double> offsets_s;
-  while (offsets_s.size() < 30) {
+  std::vector<DeviceFrame> frames;
+  while (frames.size() < 60) {
     const auto captured = capture.next();
     if (!captured) continue;
+    frames.push_back(captured->frame);
     const Stamp begin(Duration(static_cast<std::int64_t>(captured->frame.ticks)));
     offsets_s.push_back(seconds(captured->stamp - begin));
   }
@@ -100,37 +101,42 @@ TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   EXPECT_LT(*most - *least, 0.0005);
   EXPECT_GT(*least, -0.5 * *settings_.exposure_s - 0.0005);
   EXPECT_LT(*most, 0.005);
+  // Asked for 100 Hz; what a busy machine makes of that stands in the frames.
+  const double passed_s = seconds(Duration(frames.back().ticks - frames.front().ticks));
+  const double rate_hz = static_cast<double>(frames.back().id - frames.front().id) / passed_s;
+  EXPECT_LT(rate_hz, 110);
+  EXPECT_NEAR(capture.report().rate_hz, rate_hz, 0.15 * rate_hz);
 }
 
 TEST_F(AravisSourceTest, FrozenThenBack) {
   FakeGigeCamera camera;
   Capture capture = this->capture();
-  ASSERT_GT(frames_within(capture, 0.5), 10);
+  ASSERT_TRUE(gets(capture, 10));
   camera.freeze();
   const auto frozen = std::chrono::steady_clock::now();
   while (capture.report().state == CaptureState::kRunning) capture.next();
   EXPECT_LT(std::chrono::steady_clock::now() - frozen, std::chrono::seconds(1));
   EXPECT_EQ(capture.report().state, CaptureState::kSilent);
   camera.thaw();
-  EXPECT_GT(frames_within(capture, 3), 10);
+  EXPECT_TRUE(gets(capture, 10));
   EXPECT_EQ(capture.report().reconnects, 1u);
 }
 
 TEST_F(AravisSourceTest, KilledAndStartedAgain) {
   FakeGigeCamera camera;
   Capture capture = this->capture();
-  ASSERT_GT(frames_within(capture, 0.5), 10);
+  ASSERT_TRUE(gets(capture, 10));
   camera.unplug();
   while (capture.report().state == CaptureState::kRunning) capture.next();
   camera.plug_in();
-  EXPECT_GT(frames_within(capture, 3), 10);
+  EXPECT_TRUE(gets(capture, 10));
   EXPECT_GE(capture.report().reconnects, 1u);
 }
 
 TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {
   const FakeGigeCamera camera(1);
   Capture capture = this->capture();
-  EXPECT_GT(frames_within(capture, 1.5), 10);
+  EXPECT_TRUE(gets(capture, 100));
   EXPECT_GT(capture.report().missed[NoFrame::kIncomplete], 0u);
   EXPECT_GE(capture.report().dropped, 1u);
 }
