@@ -1,5 +1,5 @@
-// Published examples: github.com/RalphTro/epcis-event-hash-generator, tests/examples (expected/CBV2.0), whose hashes the
-// implementation of OpenEPCIS gives too. Their identifiers are written here in canonical form, as ours are.
+// Published examples: github.com/RalphTro/epcis-event-hash-generator, tests/examples (expected/CBV2.0), whose hashes
+// the implementation of OpenEPCIS gives too. Their identifiers are written here in canonical form, as ours are.
 #include "lodestar/wms/event_hash.hpp"
 
 #include <gtest/gtest.h>
