@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -34,11 +35,13 @@ inline int free_port() {
 /// mosquitto on the loopback, without persistence: what it holds dies with it.
 class Broker {
  public:
-  /// @param extra further lines of its configuration
+  /// @param extra lines of its configuration; empty: everyone may come
   explicit Broker(std::string extra = "") : port_(free_port()), extra_(std::move(extra)) { start(); }
   ~Broker() { kill(); }
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
+
+  static bool installed() { return std::system("PATH=$PATH:/usr/sbin command -v mosquitto >/dev/null") == 0; }
 
   int port() const { return port_; }
   std::string uri() const { return "tcp://127.0.0.1:" + std::to_string(port_); }
@@ -46,7 +49,8 @@ class Broker {
   /// Listens when this returns.
   void start() {
     const std::string file = folder_ / "mosquitto.conf";
-    std::ofstream(file) << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\n" << extra_ << "\n";
+    std::ofstream(file) << "log_dest none\nset_tcp_nodelay true\nlistener " << port_ << " 127.0.0.1\n"
+                        << (extra_.empty() ? "allow_anonymous true" : extra_) << "\n";
     process_ = fork();
     if (process_ == 0) {
       execlp("mosquitto", "mosquitto", "-c", file.c_str(), nullptr);

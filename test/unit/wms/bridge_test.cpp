@@ -11,7 +11,6 @@
 
 #include "support/bridge_params.hpp"
 #include "support/pallet_changes.hpp"
-#include "support/site.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lodestar {
@@ -214,7 +213,6 @@ TEST_F(BridgeTest, AFullStoreHoldsNewEventsInMemoryAndSaysSo) {
   EXPECT_EQ(state["errors"][0]["errorType"], "outboxFull");
 
   // The site works it off: all that were held arrive, in order.
-  test::TestSite site(site_topics("lodestar", "truck7"));
   std::size_t delivered = 0;
   std::uint64_t expected = 1;
   for (int i = 0; i < 4000 && bridge.outbox().acknowledged() < n; ++i) {

@@ -117,6 +117,7 @@ TEST(Outbox, ReachesTheSiteOverABadNetwork) {
     constexpr std::uint64_t kAll = 300;
     Outbox outbox({}, kStream, 0, 0);
     SiteInbox site;
+    site.learn(kStream, 0);
     std::vector<std::uint64_t> arrived;
     std::vector<std::string> acks;
     bool up = false;
