@@ -126,7 +126,7 @@ void Bridge::handle(const LinkEvent& event, const ClockReading& now) {
 
 /// What a broker hears first. Everything that is on its way counts as lost.
 void Bridge::greet(const ClockReading& now) {
-  link_.subscribe(topics_.ack, 1);
+  link_.subscribe(topics_.ack, 0);  // a later one says all that a lost one said
   const StreamNotice notice{store_->stream(), store_->acknowledged(), store_->last()};
   link_.publish({topics_.stream, message_text(notice), 1, true});
   for (const MqttMessage& message : telemetry_.at_connect(now)) link_.publish(message);

@@ -18,11 +18,9 @@ void SiteClient::poll(Instant now) {
   for (const LinkEvent& event : link_.take()) {
     if (std::holds_alternative<LinkUp>(event)) {
       brokers_.connected();
-      // In this order: what is known of a stream comes before its events. These need no word between site and broker
+      // In this order: what is known of a stream comes before its events. No word between site and broker is needed
       // (QoS 0): what gets lost is not acknowledged, and comes again.
-      link_.subscribe(topics_.ack, 1);
-      link_.subscribe(topics_.stream, 1);
-      link_.subscribe(topics_.event, 0);
+      for (const std::string& topic : {topics_.ack, topics_.stream, topics_.event}) link_.subscribe(topic, 0);
     } else if (const auto* down = std::get_if<LinkDown>(&event)) {
       last_failure_ = down->reason;
       brokers_.down(now);
