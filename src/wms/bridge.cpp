@@ -5,7 +5,7 @@
 
 namespace lodestar {
 
-Bridge::Bridge(const BridgeParams& params, Link& link, const ClockReading& now)
+Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading& now)
     : params_(params),
       link_(link),
       topics_(site_topics(params.vda.manufacturer, params.vda.serial)),

@@ -276,7 +276,7 @@ void EventStore::keep_clock_offset(Duration offset) {
   });
 }
 
-std::vector<StoredPallet> EventStore::pallets_in(const Box& box) {
+std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {
   return checked([&] {
     Statement get(sql_->database,
                   "SELECT id, sscc, zone, state, level, sequence FROM place JOIN pallet USING(key)"

@@ -10,7 +10,7 @@ std::string beside(const std::string& topic, const std::string& level) {
 
 }  // namespace
 
-SiteClient::SiteClient(Link& link, std::size_t brokers, const BackOff& back_off, const std::string& manufacturer,
+SiteClient::SiteClient(MessageLink& link, std::size_t brokers, const BackOff& back_off, const std::string& manufacturer,
                        const std::string& serial, Keep keep)
     : link_(link), brokers_(brokers, back_off), topics_(site_topics(manufacturer, serial)), keep_(std::move(keep)) {}
 

@@ -10,7 +10,7 @@
 #include "lodestar/wms/clock.hpp"
 #include "lodestar/wms/epcis.hpp"
 #include "lodestar/wms/event_store.hpp"
-#include "lodestar/wms/link.hpp"
+#include "lodestar/wms/message_link.hpp"
 #include "lodestar/wms/outbox.hpp"
 #include "lodestar/wms/telemetry.hpp"
 
@@ -51,7 +51,7 @@ struct HeardCounts {
 class Bridge {
  public:
   /// @param link must outlive this. Throws where the store cannot be opened.
-  Bridge(const BridgeParams& params, Link& link, const ClockReading& now);
+  Bridge(const BridgeParams& params, MessageLink& link, const ClockReading& now);
 
   void take(PalletChange change, const ClockReading& now);
   Telemetry& telemetry() { return telemetry_; }
@@ -86,7 +86,7 @@ class Bridge {
   void with_store(const ClockReading& now, Job job);
 
   BridgeParams params_;
-  Link& link_;
+  MessageLink& link_;
   SiteTopics topics_;
   BrokerList brokers_;
   Telemetry telemetry_;

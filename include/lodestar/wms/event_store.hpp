@@ -48,7 +48,7 @@ struct StoredPallet {
 };
 
 /// Axis-parallel, in map.
-struct Box {
+struct MapBox {
   Eigen::Vector3d low_m, high_m;
 };
 
@@ -90,7 +90,7 @@ class EventStore {
   std::optional<Duration> clock_offset() const;
   void keep_clock_offset(Duration offset);
 
-  std::vector<StoredPallet> pallets_in(const Box& box);
+  std::vector<StoredPallet> pallets_in(const MapBox& box);
 
  private:
   struct Sql;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lodestar/wms/link.hpp"
+#include "lodestar/wms/message_link.hpp"
 
 namespace lodestar {
 
@@ -19,8 +19,8 @@ struct MqttParams {
   int connect_timeout_s = 5;
 };
 
-/// Link over MQTT 3.1.1 by Eclipse Paho. Sessions are clean: what must not get lost is the outbox's to keep.
-class MqttLink : public Link {
+/// MessageLink over MQTT 3.1.1 by Eclipse Paho. Sessions are clean: what must not get lost is the outbox's to keep.
+class MqttLink : public MessageLink {
  public:
   explicit MqttLink(const MqttParams& params);
   ~MqttLink() override;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "lodestar/wms/broker_list.hpp"
-#include "lodestar/wms/link.hpp"
+#include "lodestar/wms/message_link.hpp"
 #include "lodestar/wms/site_inbox.hpp"
 
 namespace lodestar {
@@ -19,7 +19,7 @@ class SiteClient {
   using Keep = std::function<void(const std::string& topic, const std::string& document)>;
 
   /// @param manufacturer, serial of the truck; "+": any @param link must outlive this
-  SiteClient(Link& link, std::size_t brokers, const BackOff& back_off, const std::string& manufacturer,
+  SiteClient(MessageLink& link, std::size_t brokers, const BackOff& back_off, const std::string& manufacturer,
              const std::string& serial, Keep keep);
 
   /// Call it often.
@@ -33,7 +33,7 @@ class SiteClient {
   void take(const MqttMessage& message);
   void take_event(const MqttMessage& message);
 
-  Link& link_;
+  MessageLink& link_;
   BrokerList brokers_;
   SiteTopics topics_;
   Keep keep_;

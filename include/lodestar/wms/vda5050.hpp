@@ -8,7 +8,7 @@
 
 #include "lodestar/base/measurement/pallet.hpp"
 #include "lodestar/base/measurement/pose_estimate.hpp"
-#include "lodestar/wms/link.hpp"
+#include "lodestar/wms/message_link.hpp"
 
 namespace lodestar {
 

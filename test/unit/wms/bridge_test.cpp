@@ -20,7 +20,7 @@ using nlohmann::json;
 using test::change;
 using test::uuid;
 
-class FakeLink : public Link {
+class FakeLink : public MessageLink {
  public:
   void connect(std::size_t broker, const MqttMessage& will) override {
     tried.push_back(broker);

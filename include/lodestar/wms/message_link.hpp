@@ -21,9 +21,9 @@ struct LinkDown {
 using LinkEvent = std::variant<LinkUp, LinkDown, MqttMessage>;
 
 /// One MQTT connection at a time, seen from one thread. Nothing here waits.
-class Link {
+class MessageLink {
  public:
-  virtual ~Link() = default;
+  virtual ~MessageLink() = default;
 
   /// Begins to connect; LinkUp or LinkDown tells what became of it. An older connection is dropped without a word.
   /// @param broker index into the list that the link was made with @param will what the broker says if the link breaks
