@@ -34,7 +34,10 @@ class DeadLink : public MessageLink {
 /// The rows that the store writes for an event, and nothing else: no check, no document, no limit of pages.
 class BareInserts {
  public:
-  explicit BareInserts(const std::string& path) : database_(path, SQLite::OPEN_READWRITE) {}
+  /// @param path of a file that a store made: the same tables, and a write-ahead log
+  explicit BareInserts(const std::string& path) : database_(path, SQLite::OPEN_READWRITE) {
+    database_.exec("PRAGMA synchronous = FULL");
+  }
 
   void insert(const PalletChange& change, const std::string& draft) {
     SQLite::Transaction transaction(database_);
@@ -89,7 +92,6 @@ void recording(benchmark::State& state) {
   Bridge bridge(test::bridge_params(folder / "outbox.db"), link, test::clocks());
   { EventStore made(test::bridge_params(folder / "bare.db").store, test::uuid(1)); }
   BareInserts bare(folder / "bare.db");
-  SQLite::Database(folder / "bare.db", SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = WAL");
   constexpr int kBatch = 50;
   std::vector<double> ours_s, theirs_s;
   std::uint64_t n = 0;

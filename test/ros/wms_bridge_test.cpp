@@ -108,6 +108,7 @@ class WmsBridge : public testing::Test {
       site_->poll(test::clocks().monotonic);
       for (const LinkEvent& event : vda_->take()) {
         if (std::holds_alternative<LinkUp>(event)) vda_->subscribe("uagv/v2/lodestar/truck7/#", 0);
+        if (std::holds_alternative<LinkDown>(event)) vda_->connect(0, {});
         if (const auto* message = std::get_if<MqttMessage>(&event))
           vda_heard_[message->topic.substr(message->topic.rfind('/') + 1)] = json::parse(message->payload);
       }

@@ -189,29 +189,56 @@ TEST_F(Delivery, TheBrokerTellsThatTheBridgeIsGone) {
   EXPECT_TRUE(hears("\"ONLINE\""));
 }
 
+/// What became of a connection.
+struct Outcome {
+  bool up = false, down = false;
+};
+Outcome connect(const MqttParams& params) {
+  MqttLink link(params);
+  link.connect(0, {});
+  Outcome outcome;
+  run_until([&] { return outcome.up || outcome.down; },
+            [&] {
+              for (const LinkEvent& event : link.take()) {
+                outcome.up |= std::holds_alternative<LinkUp>(event);
+                outcome.down |= std::holds_alternative<LinkDown>(event);
+              }
+            },
+            20);
+  return outcome;
+}
+
+bool run(const std::string& command) { return std::system(("(" + command + ") >/dev/null 2>&1").c_str()) == 0; }
+
 TEST_F(Delivery, CredentialsAreAsked) {
-  test::TemporaryFolder folder;
-  ASSERT_EQ(std::system(("mosquitto_passwd -b -c " + folder / "passwords" + " truck7 secret 2>/dev/null").c_str()), 0);
-  ASSERT_EQ(std::system(("chmod 644 " + folder / "passwords && chmod 755 " + folder / ".").c_str()), 0);
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(run("mosquitto_passwd -b -c " + folder / "passwords" + " truck7 secret && chmod 755 " + folder / "." +
+                  " && chmod 644 " + folder / "passwords"));
   Broker broker("allow_anonymous false\npassword_file " + folder / "passwords");
-  for (const bool right : {false, true}) {
-    MqttParams params = mqtt("truck7", {broker.uri()});
-    params.user = "truck7";
-    params.password = right ? "secret" : "wrong";
-    MqttLink link(params);
-    link.connect(0, {});
-    bool up = false, down = false;
-    run_until([&] { return up || down; },
-              [&] {
-                for (const LinkEvent& event : link.take()) {
-                  up |= std::holds_alternative<LinkUp>(event);
-                  down |= std::holds_alternative<LinkDown>(event);
-                }
-              },
-              20);
-    EXPECT_EQ(up, right);
-    EXPECT_EQ(down, !right);
-  }
+  MqttParams params = mqtt("truck7", {broker.uri()});
+  params.user = "truck7";
+  params.password = "wrong";
+  EXPECT_TRUE(connect(params).down);
+  params.password = "secret";
+  EXPECT_TRUE(connect(params).up);
+}
+
+TEST_F(Delivery, ABrokerThatNobodyVouchesForIsRefused) {
+  if (!run("command -v openssl")) GTEST_SKIP() << "openssl, which makes the certificates, is not installed";
+  const test::TemporaryFolder folder;
+  for (const std::string name : {"broker", "stranger"})
+    ASSERT_TRUE(
+        run("openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=localhost -addext "
+            "subjectAltName=DNS:localhost,IP:127.0.0.1 -keyout " +
+            folder / (name + ".key") + " -out " + folder / (name + ".pem")));
+  ASSERT_TRUE(run("chmod 755 " + folder / "." + " && chmod 644 " + folder / "broker.key"));
+  Broker broker("allow_anonymous true\ncertfile " + folder / "broker.pem" + "\nkeyfile " + folder / "broker.key");
+  MqttParams params = mqtt("truck7", {"ssl://localhost:" + std::to_string(broker.port())});
+  params.ca_file = folder / "broker.pem";
+  EXPECT_TRUE(connect(params).up);
+  params.ca_file = folder / "stranger.pem";
+  EXPECT_TRUE(connect(params).down);
+  EXPECT_TRUE(connect(mqtt("truck7", {broker.uri()})).down) << "no TLS";
 }
 
 }  // namespace

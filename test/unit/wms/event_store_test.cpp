@@ -2,7 +2,10 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -154,6 +157,43 @@ TEST_F(Store, AFullFileKeepsAllAndIsWorkedOff) {
   EXPECT_EQ(store.record(change(n), draft), Recorded::kNew);
   EXPECT_FALSE(store.full());
   EXPECT_EQ(store.last(), held + 1);
+}
+
+TEST_F(Store, AFullDiskIsWorkedOffFromTheBallast) {
+  const std::string disk = folder_ / "disk";
+  std::filesystem::create_directory(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=3m") != 0)
+    GTEST_SKIP() << "no right to mount a small disk: " << std::strerror(errno);
+  {
+    StoreParams on_disk = params();
+    on_disk.path = disk + "/wms.db";
+    on_disk.ballast_bytes = 1 << 20;
+    on_disk.history = 1;
+    EventStore store(on_disk, kStream);
+    const std::string draft(4000, 'd');
+    std::uint64_t n = 1;
+    while (n < 20 && store.record(change(n), draft) == Recorded::kNew) ++n;
+    // Somebody else fills the disk.
+    std::ofstream filler(disk + "/filler");
+    while (filler << std::string(4096, 'f') << std::flush) {
+    }
+    while (n < 2000 && store.record(change(n), draft) == Recorded::kNew) ++n;
+    EXPECT_TRUE(store.full());
+    const std::uint64_t held = store.last();
+    std::uint64_t next = 1;
+    while (next <= held) {
+      const auto documents = store.documents(next, 5, freeze);
+      ASSERT_FALSE(documents.empty()) << "at " << next << " of " << held;
+      for (const auto& document : documents) EXPECT_EQ(document.sequence, next++);
+      ASSERT_TRUE(store.acknowledge(next - 1)) << "at " << next << " of " << held;
+    }
+    EXPECT_EQ(store.record(change(n), draft), Recorded::kFull) << "the ballast is for emptying the queue alone";
+    std::filesystem::remove(disk + "/filler");
+    filler.close();
+    EXPECT_EQ(store.record(change(n), draft), Recorded::kNew);
+    EXPECT_EQ(store.last(), held + 1);
+  }
+  umount(disk.c_str());
 }
 
 TEST_F(Store, AClockThatIsSetMarksWhatNobodyWasHanded) {
