@@ -4,6 +4,12 @@
 #include "lodestar/wms/random_uuid.hpp"
 
 namespace lodestar {
+namespace {
+
+/// A full disk is asked again so often; an acknowledgement makes room at once.
+constexpr Duration kBetweenTries = std::chrono::seconds(1);
+
+}  // namespace
 
 Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading& now)
     : params_(params),
@@ -37,6 +43,7 @@ void Bridge::with_store(const ClockReading& now, Job job) {
   } catch (const StoreCorrupt&) {
     ++store_faults_;
     open();
+    tried_ = {};
     store_->keep_clock_offset(now.offset());
     if (brokers_.is_up()) greet(now);
   } catch (const std::exception& error) {
@@ -53,12 +60,11 @@ void Bridge::take(PalletChange change, const ClockReading& now) {
   }
   if (waiting_.size() >= params_.most_in_memory) return drops_.add(BridgeDrop::kLost);
   waiting_.push_back(std::move(change));
-  with_store(now, [this] { record_waiting(); });
+  if (waiting_.size() == 1) with_store(now, [this] { record_waiting(); });
 }
 
 void Bridge::record_waiting() {
   while (!waiting_.empty() && record(waiting_.front())) waiting_.pop_front();
-  telemetry_.set_outbox_full(!waiting_.empty());
 }
 
 /// @return false: there is no room
@@ -101,9 +107,13 @@ void Bridge::poll(const ClockReading& now) {
   watch_clock(now);
   for (const LinkEvent& event : link_.take()) handle(event, now);
   with_store(now, [&] {
+    const bool room = store_->acknowledged() != outbox_.acknowledged();
     store_->acknowledge(outbox_.acknowledged());
-    if (!waiting_.empty()) record_waiting();
+    if (!room && now.monotonic - tried_ < kBetweenTries) return;
+    tried_ = now.monotonic;
+    record_waiting();
   });
+  telemetry_.set_outbox_full(!waiting_.empty());
   if (const auto broker = brokers_.due(now.monotonic)) link_.connect(*broker, telemetry_.will(now.wall));
   if (!brokers_.is_up()) return;
   with_store(now, [&] { send_due(now); });

@@ -94,6 +94,7 @@ class Bridge {
   Outbox outbox_;
   ClockWatch clock_;
   std::deque<PalletChange> waiting_;
+  Instant tried_{};  ///< when they were last offered to the store
   DropCounts<BridgeDrop> drops_;
   HeardCounts heard_;
   std::uint64_t connections_ = 0, clock_steps_ = 0, store_faults_ = 0;
