@@ -56,6 +56,15 @@ void print_events(const std::string& topic, const std::string& text) {
   }
 }
 
+/// What is no EPCIS document is shown as it came.
+void show(const std::string& topic, const std::string& document, bool whole) {
+  try {
+    if (!whole) return print_events(topic, document);
+  } catch (const json::exception&) {
+  }
+  std::cout << document << std::endl;
+}
+
 int tail(const po::variables_map& options) {
   MqttParams mqtt;
   mqtt.brokers = options["broker"].as<std::vector<std::string>>();
@@ -67,11 +76,7 @@ int tail(const po::variables_map& options) {
   SiteClient site(link, mqtt.brokers.size(), BackOff(), options["manufacturer"].as<std::string>(),
                   options["serial"].as<std::string>(), [&](const std::string& topic, const std::string& document) {
                     ++kept;
-                    if (documents) {
-                      std::cout << document << std::endl;
-                    } else {
-                      print_events(topic, document);
-                    }
+                    show(topic, document, documents);
                   });
   std::signal(SIGINT, [](int) { stopped = true; });
   std::signal(SIGTERM, [](int) { stopped = true; });

@@ -114,6 +114,8 @@ void WmsBridgeNodelet::report_trouble(Health::Status& status) {
                         std::to_string(bridge.heard().missed) + " pallet events were not heard");
   if (bridge.in_memory() > 0)
     status.mergeSummary(DiagnosticStatus::ERROR, "the store takes no events: they wait in memory");
+  if (bridge.outbox().drops()[AckDrop::kAhead] > 0)
+    status.mergeSummary(DiagnosticStatus::ERROR, "the site has events that this store never had: is it an old copy?");
   if (!bridge.set_aside().empty())
     status.mergeSummary(DiagnosticStatus::ERROR, "a damaged store was set aside: " + bridge.set_aside());
   if (bridge.drops()[BridgeDrop::kLost] > 0) status.mergeSummary(DiagnosticStatus::ERROR, "events were lost");
