@@ -85,7 +85,6 @@ bool Bridge::record(const PalletChange& change) {
 }
 
 void Bridge::count_heard(std::uint64_t before, std::uint64_t sequence) {
-  if (before == 0) return;
   if (sequence > before) {
     heard_.missed += sequence - before - 1;
   } else {

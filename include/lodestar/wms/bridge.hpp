@@ -42,7 +42,7 @@ const char* name(BridgeDrop reason);
 
 /// What can be said of the tracker's numbers.
 struct HeardCounts {
-  std::uint64_t missed = 0;    ///< numbers that were jumped over
+  std::uint64_t missed = 0;    ///< numbers that were jumped over, those before a new store's first too
   std::uint64_t restarts = 0;  ///< the tracker began to count anew
 };
 
