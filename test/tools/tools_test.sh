@@ -111,4 +111,9 @@ fi
 for tool in $tools; do
   "$bin/$tool" --help | grep -q "Examples:" || fail "$tool --help has no examples"
 done
+if [ -x "$bin/bridge_tail" ]; then  # WITH_WMS
+  "$bin/bridge_tail" --help | grep -q "Examples:" || fail "bridge_tail --help has no examples"
+  refused 2 "--help" "$bin/bridge_tail" --brokr tcp://localhost:1
+  refused 124 "not connected" timeout 2 "$bin/bridge_tail" --broker tcp://127.0.0.1:1 --count 1
+fi
 echo "all tools do as they say"

@@ -115,6 +115,24 @@ std::string ParamReader::choice(const std::string& key, const std::string& other
   return otherwise;
 }
 
+std::vector<std::string> ParamReader::texts(const std::string& key) {
+  XmlRpc::XmlRpcValue value;
+  std::vector<std::string> out;
+  if (!read(key, value)) return out;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) {
+    fault(key, std::string("is ") + type_name(value.getType()) + ", must be a list of texts");
+    return out;
+  }
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() == XmlRpc::XmlRpcValue::TypeString) {
+      out.push_back(static_cast<std::string>(value[i]));
+    } else {
+      fault(key, "entry " + std::to_string(i + 1) + " is " + type_name(value[i].getType()) + ", must be a text");
+    }
+  }
+  return out;
+}
+
 std::string ParamReader::path(const std::string& key) {
   const std::size_t before = faults_.size();
   const std::string value = text(key, "");

@@ -29,6 +29,8 @@ class ParamReader {
   bool flag(const std::string& key, bool otherwise);
   std::string text(const std::string& key, const std::string& otherwise);
   std::string choice(const std::string& key, const std::string& otherwise, const std::vector<std::string>& choices);
+  /// A list of texts; missing: an empty one.
+  std::vector<std::string> texts(const std::string& key);
   /// The path of a file; missing or empty is a fault.
   std::string path(const std::string& key);
 

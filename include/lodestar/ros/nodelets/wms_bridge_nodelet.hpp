@@ -1,0 +1,43 @@
+#pragma once
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nodelet/nodelet.h>
+
+#include <memory>
+#include <string>
+
+#include "lodestar/PalletArray.h"
+#include "lodestar/PalletEvent.h"
+#include "lodestar/PoseIntegrity.h"
+#include "lodestar/ros/nodelets/health.hpp"
+#include "lodestar/wms/bridge.hpp"
+#include "lodestar/wms/mqtt_link.hpp"
+
+namespace lodestar {
+
+/// `pallets/events` to the warehouse's software over MQTT: Bridge as a nodelet (docs/nodes/wms_bridge.md).
+class WmsBridgeNodelet : public nodelet::Nodelet {
+ public:
+  ~WmsBridgeNodelet() override;
+
+ private:
+  void onInit() override;
+  void take_event(const PalletEventConstPtr& message);
+  void take_state(const PalletArrayConstPtr& message);
+  void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
+  void take_integrity(const PoseIntegrityConstPtr& message);
+  void report(Health::Status& status);
+  void report_trouble(Health::Status& status);
+
+  std::string map_frame_;
+  std::vector<std::string> brokers_;
+  std::unique_ptr<Health> health_;
+  std::unique_ptr<MqttLink> link_;
+  std::unique_ptr<Bridge> bridge_;
+  StreamWatch* events_watch_ = nullptr;
+  StreamWatch* pose_watch_ = nullptr;
+  ros::Subscriber events_, state_, pose_, integrity_;
+  ros::WallTimer poll_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lodestar/base/common/stamp.hpp"
+#include "lodestar/base/measurement/pallet.hpp"
+
+namespace lodestar {
+
+struct StoreParams {
+  std::string path;                              ///< of the file; its journal and ballast lie beside it
+  std::string boot;                              ///< names the running system since its start: one monotonic clock
+  std::int64_t max_pages = 16384;                ///< of 4096 octets, that new events may fill
+  std::int64_t reserve_pages = 256;              ///< above max_pages, for emptying the queue alone
+  std::int64_t ballast_bytes = 4 * 1024 * 1024;  ///< of the disk, for emptying the queue alone
+  std::uint64_t history = 1000;                  ///< acknowledged documents that are kept for corrections
+};
+
+/// The file is damaged: open_store() sets it aside.
+struct StoreCorrupt : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class Recorded {
+  kNew,    ///< durable
+  kKnown,  ///< the same event was recorded before
+  kFull,   ///< no room, nothing was changed
+};
+
+/// What the queue hands over.
+struct StoredDocument {
+  std::uint64_t sequence = 0;
+  std::string document;
+};
+
+/// A pallet as the last event left it.
+struct StoredPallet {
+  std::string id, sscc, zone;
+  PalletState state = PalletState::kStanding;
+  int level = 0;
+  std::uint64_t sequence = 0;  ///< of that event
+};
+
+/// Axis-parallel, in map.
+struct MapBox {
+  Eigen::Vector3d low_m, high_m;
+};
+
+/// The events of this truck in an SQLite file that neither a kill nor a fall of power harms: write-ahead log, fsync
+/// with each commit. An event, the state of its pallet and its place (R*Tree) are one transaction. Events are numbered
+/// from 1 without gaps; the numbers belong to `stream()`, which a new file gets anew. An event that is not acknowledged
+/// is never deleted. A call that throws, or says that there is no room, has changed nothing.
+class EventStore {
+ public:
+  /// Makes the final document of a draft, with the sequence number that it goes by.
+  using Freeze = std::function<std::string(const std::string& draft, std::uint64_t sequence, Duration clock_step,
+                                           const std::string& corrected_document)>;
+
+  /// Throws StoreCorrupt, or SQLite::Exception where the file cannot be used for another reason, such as that a newer
+  /// version of this program wrote it. @param new_stream UUID for the numbers of a new file
+  EventStore(const StoreParams& params, const std::string& new_stream);
+  ~EventStore();
+
+  const std::string& stream() const { return stream_; }
+  std::uint64_t last() const { return last_; }                  ///< sequence number of the newest event; 0: none
+  std::uint64_t acknowledged() const { return acknowledged_; }  ///< the site has all up to here
+  std::uint64_t last_heard() const { return last_heard_; }      ///< the tracker's own number of the newest event
+  bool full() const { return full_; }                           ///< new events find no room
+
+  Recorded record(const PalletChange& change, const std::string& draft);
+
+  /// Documents from sequence number `first` on. One that is handed over for the first time is frozen before: durable,
+  /// and the same octets ever after. Fewer than there are, or none, when there is no room to freeze them.
+  std::vector<StoredDocument> documents(std::uint64_t first, std::size_t most, const Freeze& freeze);
+
+  /// The site has all up to `sequence`; numbers that are not ahead of acknowledged(), or beyond last(), change nothing.
+  /// @return false: not even the reserve had room
+  bool acknowledge(std::uint64_t sequence);
+
+  /// The wall clock was set by `step`: what this boot recorded and nobody has yet been handed bears the mark.
+  /// @return how many events that are
+  int mark_clock_step(Duration step);
+  /// Wall minus monotonic clock as last kept for this boot.
+  std::optional<Duration> clock_offset() const;
+  void keep_clock_offset(Duration offset);
+
+  std::vector<StoredPallet> pallets_in(const MapBox& box);
+
+ private:
+  struct Sql;
+  void load(const std::string& new_stream);
+  Recorded insert(const PalletChange& change, const std::string& draft);
+  void put_pallet(const PalletChange& change);
+  std::string corrected_document(std::uint64_t heard, std::uint64_t before);
+  bool make_room();
+  template <class Job>
+  bool run(Job job);
+  template <class Job>
+  bool run_with_reserve(Job job);
+
+  StoreParams params_;
+  std::unique_ptr<Sql> sql_;
+  std::string stream_;
+  std::uint64_t last_ = 0, acknowledged_ = 0, last_heard_ = 0;
+  bool full_ = false;
+};
+
+/// A store, and what had to be done to get it.
+struct OpenedStore {
+  std::unique_ptr<EventStore> store;
+  std::string set_aside;  ///< where a damaged file now lies; empty: there was none
+  std::string damage;     ///< what was wrong with it
+};
+
+/// Opens the store; a damaged file is moved to `<path>.corrupt-<n>`, and a new one begins.
+OpenedStore open_store(const StoreParams& params, const std::string& new_stream);
+
+}  // namespace lodestar

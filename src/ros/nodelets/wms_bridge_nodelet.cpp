@@ -1,0 +1,126 @@
+#include "lodestar/ros/nodelets/wms_bridge_nodelet.hpp"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <chrono>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "lodestar/ros/convert/pallet.hpp"
+#include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/nodelets/wms_params.hpp"
+#include "lodestar/ros/params/line_setup.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr double kPollPeriod_s = 0.01;
+
+ClockReading clocks() {
+  return {Stamp(std::chrono::system_clock::now().time_since_epoch()),
+          Instant(std::chrono::steady_clock::now().time_since_epoch())};
+}
+
+}  // namespace
+
+void WmsBridgeNodelet::onInit() {
+  ros::NodeHandle& nh = getNodeHandle();
+  ros::NodeHandle& private_nh = getPrivateNodeHandle();
+  ParamReader reader(private_nh);
+  const StaleLimits limits = read_stale_limits(reader);
+  const Site site = read_site(reader);
+  const WmsSetup setup = read_wms_setup(reader, site, ros::names::clean("/" + private_nh.getNamespace()));
+  refuse_faults(reader.faults());
+
+  map_frame_ = site.frame_id;
+  brokers_ = setup.mqtt.brokers;
+  link_ = std::make_unique<MqttLink>(setup.mqtt);
+  bridge_ = std::make_unique<Bridge>(setup.bridge, *link_, clocks());
+  health_ = std::make_unique<Health>(nh, private_nh, "WMS bridge", setup.bridge.vda.serial, limits);
+  events_watch_ = &health_->watch("events", Need::kOptional);
+  pose_watch_ = &health_->watch("pose", Need::kRequired);
+  health_->add_report([this](Health::Status& status) { report(status); });
+
+  events_ = nh.subscribe("pallets/events", 1000, &WmsBridgeNodelet::take_event, this);
+  state_ = nh.subscribe("pallets/state", 1, &WmsBridgeNodelet::take_state, this);
+  pose_ = nh.subscribe("pose", 10, &WmsBridgeNodelet::take_pose, this);
+  integrity_ = nh.subscribe("pose/integrity", 10, &WmsBridgeNodelet::take_integrity, this);
+  poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s),
+                             [this](const ros::WallTimerEvent&) { bridge_->poll(clocks()); });
+}
+
+WmsBridgeNodelet::~WmsBridgeNodelet() {
+  if (bridge_) bridge_->shut_down(clocks());
+}
+
+void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
+  events_watch_->tick();
+  auto change = pallet_change_from(*message, map_frame_);
+  if (!change) return health_->drop(change.error());
+  bridge_->take(std::move(change).value(), clocks());
+}
+
+void WmsBridgeNodelet::take_state(const PalletArrayConstPtr& message) {
+  std::vector<Pallet> on_fork;
+  for (const PalletEntry& entry : message->pallets) {
+    if (entry.state != PalletEntry::ON_FORK) continue;
+    auto pallet = pallet_from(entry);
+    if (!pallet) return health_->drop(pallet.error());
+    on_fork.push_back(std::move(pallet).value());
+  }
+  bridge_->telemetry().take_loads(std::move(on_fork));
+}
+
+void WmsBridgeNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
+  pose_watch_->tick();
+  const auto estimate = pose_estimate_from(*message, map_frame_);
+  if (!estimate) return health_->drop(estimate.error());
+  bridge_->telemetry().take_pose(*estimate, clocks().monotonic);
+}
+
+void WmsBridgeNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
+  const bool trusted = message->mode == PoseIntegrity::TRACKING || message->mode == PoseIntegrity::COASTING;
+  bridge_->telemetry().take_integrity(trusted, message->protection_level_m);
+}
+
+void WmsBridgeNodelet::report(Health::Status& status) {
+  const Bridge& bridge = *bridge_;
+  status.add("broker", bridge.connected() ? brokers_[bridge.broker()] : "none");
+  status.add("connections", bridge.connections());
+  status.add("last link failure", bridge.last_failure());
+  status.add("stream", bridge.store().stream());
+  status.add("recorded", bridge.store().last());
+  status.add("acknowledged", bridge.store().acknowledged());
+  status.add("waiting", bridge.outbox().waiting());
+  status.add("on their way", bridge.outbox().on_their_way());
+  status.add("resends", bridge.outbox().resends());
+  status.add("in memory", bridge.in_memory());
+  status.add("missed", bridge.heard().missed);
+  status.add("tracker restarts", bridge.heard().restarts);
+  status.add("clock steps", bridge.clock_steps());
+  status.add("store faults", bridge.store_faults());
+  status.add("last store fault", bridge.store_fault());
+  status.add("store set aside", bridge.set_aside());
+  report_drops(bridge.drops(), status);
+  report_drops(bridge.outbox().drops(), status);
+  report_trouble(status);
+}
+
+void WmsBridgeNodelet::report_trouble(Health::Status& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const Bridge& bridge = *bridge_;
+  if (!bridge.connected()) status.mergeSummary(DiagnosticStatus::WARN, "no broker: " + bridge.last_failure());
+  if (bridge.heard().missed > 0)
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        std::to_string(bridge.heard().missed) + " pallet events were not heard");
+  if (bridge.in_memory() > 0)
+    status.mergeSummary(DiagnosticStatus::ERROR, "the store takes no events: they wait in memory");
+  if (bridge.outbox().drops()[AckDrop::kAhead] > 0)
+    status.mergeSummary(DiagnosticStatus::ERROR, "the site has events that this store never had: is it an old copy?");
+  if (!bridge.set_aside().empty())
+    status.mergeSummary(DiagnosticStatus::ERROR, "a damaged store was set aside: " + bridge.set_aside());
+  if (bridge.drops()[BridgeDrop::kLost] > 0) status.mergeSummary(DiagnosticStatus::ERROR, "events were lost");
+}
+
+}  // namespace lodestar
+
+PLUGINLIB_EXPORT_CLASS(lodestar::WmsBridgeNodelet, nodelet::Nodelet)

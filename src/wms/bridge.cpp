@@ -1,0 +1,165 @@
+#include "lodestar/wms/bridge.hpp"
+
+#include "lodestar/wms/gs1.hpp"
+#include "lodestar/wms/random_uuid.hpp"
+
+namespace lodestar {
+namespace {
+
+/// A full disk is asked again so often; an acknowledgement makes room at once.
+constexpr Duration kBetweenTries = std::chrono::seconds(1);
+
+}  // namespace
+
+Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading& now)
+    : params_(params),
+      link_(link),
+      topics_(site_topics(params.vda.manufacturer, params.vda.serial)),
+      brokers_(params.brokers, params.back_off),
+      telemetry_(params.vda),
+      outbox_(params.outbox, "", 0, 0),
+      clock_(std::nullopt, params.clock_step) {
+  open();
+  clock_ = ClockWatch(store_->clock_offset(), params_.clock_step);
+  watch_clock(now);
+  store_->keep_clock_offset(now.offset());
+}
+
+void Bridge::open() {
+  store_.reset();
+  OpenedStore opened = open_store(params_.store, random_uuid());
+  store_ = std::move(opened.store);
+  outbox_ = Outbox(params_.outbox, store_->stream(), store_->acknowledged(), store_->last());
+  if (opened.set_aside.empty()) return;
+  set_aside_ = opened.set_aside;
+  store_fault_ = opened.damage;
+}
+
+/// A fault of the disk leaves everything as it was, to be tried again; a damaged file makes room for a new one.
+template <class Job>
+void Bridge::with_store(const ClockReading& now, Job job) {
+  try {
+    job();
+  } catch (const StoreCorrupt&) {
+    ++store_faults_;
+    open();
+    tried_ = {};
+    store_->keep_clock_offset(now.offset());
+    if (brokers_.is_up()) greet(now);
+  } catch (const std::exception& error) {
+    ++store_faults_;
+    store_fault_ = error.what();
+  }
+}
+
+void Bridge::take(PalletChange change, const ClockReading& now) {
+  if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
+  if (!change.pallet.sscc.empty() && !valid_sscc(change.pallet.sscc)) {
+    drops_.add(BridgeDrop::kLabel);
+    change.pallet.sscc.clear();
+  }
+  if (waiting_.size() >= params_.most_in_memory) return drops_.add(BridgeDrop::kLost);
+  waiting_.push_back(std::move(change));
+  if (waiting_.size() == 1) with_store(now, [this] { record_waiting(); });
+}
+
+void Bridge::record_waiting() {
+  while (!waiting_.empty() && record(waiting_.front())) waiting_.pop_front();
+}
+
+/// @return false: there is no room
+bool Bridge::record(const PalletChange& change) {
+  const std::uint64_t before = store_->last_heard();
+  switch (store_->record(change, epcis_draft(params_.epcis, change))) {
+    case Recorded::kFull:
+      return false;
+    case Recorded::kKnown:
+      drops_.add(BridgeDrop::kKnown);
+      return true;
+    case Recorded::kNew:
+      break;
+  }
+  count_heard(before, change.sequence);
+  outbox_.recorded(store_->last());
+  return true;
+}
+
+void Bridge::count_heard(std::uint64_t before, std::uint64_t sequence) {
+  if (sequence > before) {
+    heard_.missed += sequence - before - 1;
+  } else {
+    ++heard_.restarts;
+  }
+}
+
+void Bridge::watch_clock(const ClockReading& now) {
+  const auto step = clock_.step(now);
+  if (!step) return;
+  ++clock_steps_;
+  with_store(now, [&] {
+    store_->mark_clock_step(*step);
+    store_->keep_clock_offset(now.offset());
+  });
+}
+
+void Bridge::poll(const ClockReading& now) {
+  watch_clock(now);
+  for (const LinkEvent& event : link_.take()) handle(event, now);
+  with_store(now, [&] {
+    const bool room = store_->acknowledged() != outbox_.acknowledged();
+    store_->acknowledge(outbox_.acknowledged());
+    if (!room && now.monotonic - tried_ < kBetweenTries) return;
+    tried_ = now.monotonic;
+    record_waiting();
+  });
+  telemetry_.set_outbox_full(!waiting_.empty());
+  if (const auto broker = brokers_.due(now.monotonic)) link_.connect(*broker, telemetry_.will(now.wall));
+  if (!brokers_.is_up()) return;
+  with_store(now, [&] { send_due(now); });
+  for (const MqttMessage& message : telemetry_.due(now)) link_.publish(message);
+}
+
+void Bridge::handle(const LinkEvent& event, const ClockReading& now) {
+  if (std::holds_alternative<LinkUp>(event)) {
+    brokers_.connected();
+    ++connections_;
+    greet(now);
+  } else if (const auto* down = std::get_if<LinkDown>(&event)) {
+    last_failure_ = down->reason;
+    brokers_.down(now.monotonic);
+    outbox_.disconnected();
+  } else if (const auto* message = std::get_if<MqttMessage>(&event)) {
+    if (message->topic == topics_.ack) outbox_.take(message->payload, message->retained, now.monotonic);
+  }
+}
+
+/// What a broker hears first. Everything that is on its way counts as lost.
+void Bridge::greet(const ClockReading& now) {
+  link_.subscribe(topics_.ack, 0);  // a later one says all that a lost one said
+  const StreamNotice notice{store_->stream(), store_->acknowledged(), store_->last()};
+  link_.publish({topics_.stream, message_text(notice), 1, true});
+  for (const MqttMessage& message : telemetry_.at_connect(now)) link_.publish(message);
+  outbox_.connected(now.monotonic);
+}
+
+void Bridge::send_due(const ClockReading& now) {
+  const Batch due = outbox_.due(now.monotonic);
+  if (due.count == 0) return;
+  const auto freeze = [&](const std::string& draft, std::uint64_t sequence, Duration clock_step,
+                          const std::string& corrected) {
+    return epcis_document(draft, {store_->stream(), sequence, now.wall, clock_step, corrected});
+  };
+  Batch sent{due.first, 0};
+  for (const StoredDocument& stored : store_->documents(due.first, due.count, freeze)) {
+    if (!link_.publish({topics_.event, stored.document, 1, false})) break;
+    ++sent.count;
+  }
+  outbox_.sent(sent, now.monotonic);
+}
+
+void Bridge::shut_down(const ClockReading& now) {
+  if (brokers_.is_up()) link_.publish(telemetry_.farewell(now.wall));
+  link_.disconnect();
+}
+
+}  // namespace lodestar

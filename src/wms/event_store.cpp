@@ -1,0 +1,298 @@
+#include "lodestar/wms/event_store.hpp"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "lodestar/wms/ballast.hpp"
+#include "store_schema.hpp"
+
+namespace lodestar {
+namespace {
+
+using SQLite::Statement;
+
+/// What the job gives; damage by its own name.
+template <class Job>
+auto checked(Job job) {
+  try {
+    return job();
+  } catch (const SQLite::Exception& error) {
+    const int code = error.getErrorCode();
+    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) throw StoreCorrupt(error.what());
+    throw;
+  }
+}
+
+/// Bound, run, and ready for the next time.
+template <class... Values>
+int execute(Statement& statement, const Values&... values) {
+  statement.tryReset();
+  int index = 0;
+  (statement.bind(++index, values), ...);
+  const int changes = statement.exec();
+  statement.tryReset();
+  return changes;
+}
+
+std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+std::uint64_t unsigned_of(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
+
+SQLite::Database open_database(const std::string& path) {
+  SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  const std::string verdict = database.execAndGet("PRAGMA quick_check(1)").getString();
+  if (verdict != "ok") throw StoreCorrupt(verdict);
+  database.exec("PRAGMA journal_mode = WAL");
+  database.exec("PRAGMA synchronous = FULL");
+  database.exec("PRAGMA journal_size_limit = 1048576");
+  migrate(database);
+  return database;
+}
+
+}  // namespace
+
+struct EventStore::Sql {
+  explicit Sql(const StoreParams& params)
+      : database(open_database(params.path)), ballast(params.path + ".ballast", params.ballast_bytes) {}
+
+  void limit(std::int64_t pages) { database.exec("PRAGMA max_page_count = " + std::to_string(pages)); }
+
+  /// The limit of pages, or the disk; the shared memory of the log tells it as an input/output error.
+  bool out_of_room(const SQLite::Exception& error) {
+    return error.getErrorCode() == SQLITE_FULL ||
+           (error.getErrorCode() == SQLITE_IOERR && sqlite3_system_errno(database.getHandle()) == ENOSPC);
+  }
+
+  struct Row {
+    StoredDocument stored;
+    bool frozen;
+    Duration clock_step;
+    std::uint64_t corrects;
+  };
+  std::vector<Row> rows(std::uint64_t first, std::size_t most) {
+    get_events.tryReset();
+    get_events.bind(1, signed_of(first));
+    get_events.bind(2, static_cast<std::int64_t>(most));
+    std::vector<Row> out;
+    while (get_events.executeStep())
+      out.push_back({{unsigned_of(get_events.getColumn(0)), get_events.getColumn(1).getString()},
+                     get_events.getColumn(2).getInt() != 0,
+                     Duration(get_events.getColumn(3).getInt64()),
+                     unsigned_of(get_events.getColumn(4))});
+    get_events.tryReset();
+    return out;
+  }
+
+  std::optional<std::string> meta(const std::string& key) {
+    Statement get(database, "SELECT value FROM meta WHERE key = ?");
+    get.bind(1, key);
+    if (!get.executeStep()) return std::nullopt;
+    return get.getColumn(0).getString();
+  }
+
+  SQLite::Database database;
+  Ballast ballast;
+  Statement put_meta{database, "INSERT INTO meta VALUES(?, ?) ON CONFLICT(key) DO UPDATE SET value = excluded.value"};
+  Statement put_event{database,
+                      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot)"
+                      " VALUES(?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
+  Statement put_pallet{database,
+                       "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
+                       " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
+                       " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence RETURNING key"};
+  Statement drop_place{database, "DELETE FROM place WHERE key = ?"};
+  Statement put_place{database, "INSERT INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
+  Statement get_events{database,
+                       "SELECT sequence, document, frozen, clock_step_ns, corrects FROM event WHERE sequence >= ?"
+                       " ORDER BY sequence LIMIT ?"};
+  Statement freeze_event{database, "UPDATE event SET document = ?, frozen = 1 WHERE sequence = ?"};
+  Statement get_corrected{database,
+                          "SELECT document FROM event WHERE heard = ? AND sequence < ? AND frozen = 1"
+                          " ORDER BY sequence DESC LIMIT 1"};
+  Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
+  Statement mark_events{database, "UPDATE event SET clock_step_ns = clock_step_ns + ? WHERE frozen = 0 AND boot = ?"};
+};
+
+EventStore::EventStore(const StoreParams& params, const std::string& new_stream) : params_(params) {
+  checked([&] {
+    sql_ = std::make_unique<Sql>(params_);
+    sql_->limit(params_.max_pages);
+    load(new_stream);
+  });
+}
+
+EventStore::~EventStore() = default;
+
+void EventStore::load(const std::string& new_stream) {
+  const auto stream = sql_->meta("stream");
+  if (!stream) execute(sql_->put_meta, "stream", new_stream);
+  stream_ = stream.value_or(new_stream);
+  acknowledged_ = std::stoull(sql_->meta("acknowledged").value_or("0"));
+  Statement newest(sql_->database, "SELECT sequence, heard FROM event ORDER BY sequence DESC LIMIT 1");
+  last_ = acknowledged_;
+  if (!newest.executeStep()) return;
+  last_ = std::max(last_, unsigned_of(newest.getColumn(0)));
+  last_heard_ = unsigned_of(newest.getColumn(1));
+}
+
+/// One transaction. @return false: no room, nothing was changed
+template <class Job>
+bool EventStore::run(Job job) {
+  return checked([&] {
+    try {
+      SQLite::Transaction transaction(sql_->database);
+      job();
+      transaction.commit();
+      return true;
+    } catch (const SQLite::Exception& error) {
+      if (!sql_->out_of_room(error)) throw;
+      return false;
+    }
+  });
+}
+
+/// The same with all the room that is kept back. The ballast comes back when there is room for it again.
+template <class Job>
+bool EventStore::run_with_reserve(Job job) {
+  sql_->limit(params_.max_pages + params_.reserve_pages);
+  bool done = run(job);
+  if (!done && sql_->ballast.held()) {
+    sql_->ballast.release();
+    done = run(job);
+  }
+  sql_->limit(params_.max_pages);
+  return done;
+}
+
+Recorded EventStore::record(const PalletChange& change, const std::string& draft) {
+  Recorded result = Recorded::kNew;
+  const auto job = [&] { result = insert(change, draft); };
+  // Without ballast there is only the room that emptying the queue needs.
+  full_ = !(sql_->ballast.hold() && run(job)) && !(make_room() && run(job));
+  if (full_) return Recorded::kFull;
+  if (result == Recorded::kKnown) return result;
+  ++last_;
+  last_heard_ = change.sequence;
+  return result;
+}
+
+Recorded EventStore::insert(const PalletChange& change, const std::string& draft) {
+  const int inserted = execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
+                               static_cast<std::int64_t>(change.stamp.time_since_epoch().count()), change.pallet.id,
+                               signed_of(change.corrects), draft, params_.boot);
+  if (inserted == 0) return Recorded::kKnown;
+  put_pallet(change);
+  return Recorded::kNew;
+}
+
+void EventStore::put_pallet(const PalletChange& change) {
+  const Pallet& pallet = change.pallet;
+  Statement& put = sql_->put_pallet;
+  put.tryReset();
+  put.bind(1, pallet.id);
+  put.bind(2, pallet.sscc);
+  put.bind(3, static_cast<int>(pallet.state));
+  put.bind(4, pallet.zone);
+  put.bind(5, pallet.level);
+  put.bind(6, signed_of(last_ + 1));
+  put.executeStep();
+  const std::int64_t key = put.getColumn(0).getInt64();
+  while (put.executeStep()) {
+  }
+  put.tryReset();
+  execute(sql_->drop_place, key);
+  if (pallet.state != PalletState::kStanding && pallet.state != PalletState::kUncertain) return;
+  const auto p = pallet.T_map_pallet.translation();
+  execute(sql_->put_place, key, p.x(), p.x(), p.y(), p.y(), p.z(), p.z());
+}
+
+/// History is the only thing that may go. @return whether there is a point in trying again
+bool EventStore::make_room() {
+  if (acknowledged_ == 0) return false;
+  int forgotten = 0;
+  const bool done = run_with_reserve([&] { forgotten = execute(sql_->forget_events, signed_of(acknowledged_)); });
+  return done && forgotten > 0 && sql_->ballast.hold();
+}
+
+std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
+  const std::vector<Sql::Row> rows = checked([&] { return sql_->rows(first, most); });
+  std::vector<StoredDocument> out;
+  for (const Sql::Row& row : rows) out.push_back(row.stored);
+  if (std::all_of(rows.begin(), rows.end(), [](const Sql::Row& row) { return row.frozen; })) return out;
+  const bool done = run_with_reserve([&] {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].frozen) continue;
+      const StoredDocument& draft = rows[i].stored;
+      out[i].document = freeze(draft.document, draft.sequence, rows[i].clock_step,
+                               corrected_document(rows[i].corrects, draft.sequence));
+      execute(sql_->freeze_event, out[i].document, signed_of(draft.sequence));
+    }
+  });
+  if (!done) out.clear();
+  return out;
+}
+
+std::string EventStore::corrected_document(std::uint64_t heard, std::uint64_t before) {
+  if (heard == 0) return "";
+  Statement& get = sql_->get_corrected;
+  get.tryReset();
+  get.bind(1, signed_of(heard));
+  get.bind(2, signed_of(before));
+  const std::string document = get.executeStep() ? get.getColumn(0).getString() : "";
+  get.tryReset();
+  return document;
+}
+
+bool EventStore::acknowledge(std::uint64_t sequence) {
+  if (sequence <= acknowledged_ || sequence > last_) return true;
+  const std::uint64_t forgotten = sequence > params_.history ? sequence - params_.history : 0;
+  const bool done = run_with_reserve([&] {
+    execute(sql_->put_meta, "acknowledged", std::to_string(sequence));
+    if (forgotten > 0) execute(sql_->forget_events, signed_of(forgotten));
+  });
+  if (!done) return false;
+  acknowledged_ = sequence;
+  sql_->ballast.hold();
+  return true;
+}
+
+int EventStore::mark_clock_step(Duration step) {
+  int marked = 0;
+  run_with_reserve([&] { marked = execute(sql_->mark_events, static_cast<std::int64_t>(step.count()), params_.boot); });
+  return marked;
+}
+
+std::optional<Duration> EventStore::clock_offset() const {
+  const auto offset = sql_->meta("clock_offset:" + params_.boot);
+  if (!offset) return std::nullopt;
+  return Duration(std::stoll(*offset));
+}
+
+void EventStore::keep_clock_offset(Duration offset) {
+  run_with_reserve([&] {
+    sql_->database.exec("DELETE FROM meta WHERE key LIKE 'clock_offset:%'");
+    execute(sql_->put_meta, "clock_offset:" + params_.boot, std::to_string(offset.count()));
+  });
+}
+
+std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {
+  return checked([&] {
+    Statement get(sql_->database,
+                  "SELECT id, sscc, zone, state, level, sequence FROM place JOIN pallet USING(key)"
+                  " WHERE high_x >= ? AND low_x <= ? AND high_y >= ? AND low_y <= ? AND high_z >= ? AND low_z <= ?"
+                  " ORDER BY id");
+    for (int axis = 0; axis < 3; ++axis) {
+      get.bind(2 * axis + 1, box.low_m[axis]);
+      get.bind(2 * axis + 2, box.high_m[axis]);
+    }
+    std::vector<StoredPallet> out;
+    while (get.executeStep())
+      out.push_back({get.getColumn(0).getString(), get.getColumn(1).getString(), get.getColumn(2).getString(),
+                     static_cast<PalletState>(get.getColumn(3).getInt()), get.getColumn(4).getInt(),
+                     unsigned_of(get.getColumn(5))});
+    return out;
+  });
+}
+
+}  // namespace lodestar

@@ -1,0 +1,72 @@
+#include "lodestar/wms/telemetry.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr Duration kPoseStale = std::chrono::seconds(2);
+constexpr Duration kJudgeMotion = std::chrono::milliseconds(300);
+constexpr double kDriving_m_s = 0.05;
+
+bool due_again(const std::optional<Instant>& sent, Instant now, double period_s) {
+  return !sent || now - *sent >= from_seconds(period_s);
+}
+
+}  // namespace
+
+void Telemetry::take_pose(const PoseEstimate& pose, Instant now) {
+  truck_.pose = pose;
+  pose_heard_ = now;
+  if (!moved_from_ || pose.stamp < moved_from_->stamp) moved_from_ = pose;
+  const Duration since = pose.stamp - moved_from_->stamp;
+  if (since < kJudgeMotion) return;
+  const double distance_m = (pose.T_map_base.translation() - moved_from_->T_map_base.translation()).head<2>().norm();
+  truck_.driving = distance_m > kDriving_m_s * seconds(since);
+  moved_from_ = pose;
+}
+
+void Telemetry::take_integrity(bool trusted, double protection_level_m) {
+  trusted_ = trusted;
+  truck_.protection_level_m = protection_level_m;
+}
+
+void Telemetry::take_loads(std::vector<Pallet> on_fork) {
+  const auto same = [](const Pallet& a, const Pallet& b) { return a.id == b.id && a.sscc == b.sscc; };
+  changed_ |= !std::equal(on_fork.begin(), on_fork.end(), truck_.loads.begin(), truck_.loads.end(), same);
+  truck_.loads = std::move(on_fork);
+}
+
+void Telemetry::set_outbox_full(bool full) {
+  changed_ |= full != truck_.outbox_full;
+  truck_.outbox_full = full;
+}
+
+/// A pose that nobody renews is not trusted, whatever was said of it.
+void Telemetry::refresh(Instant now) {
+  const bool localized = trusted_ && truck_.pose && now - pose_heard_ < kPoseStale;
+  changed_ |= localized != truck_.localized;
+  truck_.localized = localized;
+}
+
+std::vector<MqttMessage> Telemetry::at_connect(const ClockReading& now) {
+  refresh(now.monotonic);
+  state_sent_.reset();
+  visualization_sent_.reset();
+  return {messages_.connection(VdaConnection::kOnline, now.wall), messages_.factsheet(now.wall)};
+}
+
+std::vector<MqttMessage> Telemetry::due(const ClockReading& now) {
+  refresh(now.monotonic);
+  std::vector<MqttMessage> out;
+  if (changed_ || due_again(state_sent_, now.monotonic, params_.state_period_s)) {
+    out.push_back(messages_.state(truck_, now.wall));
+    state_sent_ = now.monotonic;
+    changed_ = false;
+  }
+  if (due_again(visualization_sent_, now.monotonic, params_.visualization_period_s)) {
+    out.push_back(messages_.visualization(truck_, now.wall));
+    visualization_sent_ = now.monotonic;
+  }
+  return out;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,234 @@
+// The bridge as a node: from /pallets/events to a site over a broker of the test's own.
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "lodestar/PalletArray.h"
+#include "lodestar/PalletEvent.h"
+#include "lodestar/PoseIntegrity.h"
+#include "lodestar/ros/convert/message_drop.hpp"
+#include "lodestar/ros/convert/pallet.hpp"
+#include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/nodelets/wms_params.hpp"
+#include "lodestar/wms/bridge.hpp"
+#include "lodestar/wms/mqtt_link.hpp"
+#include "lodestar/wms/site_client.hpp"
+#include "ros/support/diagnostics.hpp"
+#include "ros/support/waiting.hpp"
+#include "support/broker.hpp"
+#include "support/pallet_changes.hpp"
+#include "support/real_time.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+using namespace lodestar;
+using lodestar::test::change;
+using lodestar::test::Diagnostics;
+using lodestar::test::wait_for;
+using nlohmann::json;
+
+const char* const kNode = "wms_bridge";
+
+class Node {
+ public:
+  explicit Node(const std::string& log) : log_(log) {
+    process_ = fork();
+    if (process_ != 0) return;
+    if (std::freopen(log.c_str(), "w", stdout) == nullptr || dup2(1, 2) < 0) _exit(127);
+    execl(LODESTAR_PROGRAM_DIR "/wms_bridge_node", "wms_bridge_node", "__name:=wms_bridge", nullptr);
+    _exit(127);
+  }
+  ~Node() { end(SIGKILL); }
+
+  int end(int signal) {
+    if (process_ <= 0) return 0;
+    ::kill(process_, signal);
+    return join();
+  }
+  int join() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    return status;
+  }
+  std::string output() const {
+    std::ifstream file(log_);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+ private:
+  std::string log_;
+  pid_t process_ = -1;
+};
+
+class WmsBridge : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::Broker::installed()) GTEST_SKIP() << "mosquitto is not installed";
+    broker_ = std::make_unique<test::Broker>();
+    set_parameters();
+    MqttParams mqtt;
+    mqtt.brokers = {broker_->uri()};
+    mqtt.client_id = "site";
+    link_ = std::make_unique<MqttLink>(mqtt);
+    site_ = std::make_unique<SiteClient>(
+        *link_, 1, BackOff{from_seconds(0.05), from_seconds(0.2)}, "lodestar", "truck7",
+        [this](const std::string&, const std::string& document) { arrived_.push_back(json::parse(document)); });
+    mqtt.client_id = "master_control";
+    vda_ = std::make_unique<MqttLink>(mqtt);
+    vda_->connect(0, {});
+  }
+
+  void set_parameters() {
+    ros::param::del("/wms_bridge");
+    const auto set = [](const std::string& key, const auto& value) { ros::param::set("/wms_bridge/" + key, value); };
+    set("site", ros::param::param<std::string>("/site", ""));
+    set("store", folder_ / "wms.db");
+    set("manufacturer", "lodestar");
+    set("serial", "truck7");
+    set("giai", "4012345TRUCK7");
+    set("gln", "4012345000115");
+    set("coordinate_reference_system", "https://hall-12.example/crs/map");
+    set("brokers", std::vector<std::string>{broker_->uri()});
+    set("back_off_first_s", 0.05);
+    set("back_off_at_most_s", 0.2);
+    set("state_period_s", 0.2);
+  }
+
+  bool until(const std::function<bool()>& condition) {
+    return wait_for([&] {
+      site_->poll(test::clocks().monotonic);
+      for (const LinkEvent& event : vda_->take()) {
+        if (std::holds_alternative<LinkUp>(event)) vda_->subscribe("uagv/v2/lodestar/truck7/#", 0);
+        if (std::holds_alternative<LinkDown>(event)) vda_->connect(0, {});
+        if (const auto* message = std::get_if<MqttMessage>(&event))
+          vda_heard_[message->topic.substr(message->topic.rfind('/') + 1)] = json::parse(message->payload);
+      }
+      return condition();
+    });
+  }
+  bool counted(const std::string& key, long at_least) {
+    return until([&] { return diagnostics_.count(kNode, key) >= at_least; });
+  }
+  void publish(int first, int last) {
+    for (int n = first; n <= last; ++n) events_.publish(pallet_event_message(change(n), "map"));
+  }
+  void expect_arrived(std::size_t count) {
+    ASSERT_TRUE(until([&] { return arrived_.size() >= count; })) << arrived_.size();
+    for (std::size_t i = 0; i < arrived_.size(); ++i) EXPECT_EQ(arrived_[i]["lodestar:sequence"], i + 1);
+    EXPECT_EQ(arrived_.size(), count);
+  }
+
+  test::TemporaryFolder folder_;
+  ros::NodeHandle nh_;
+  Diagnostics diagnostics_{nh_};
+  ros::Publisher events_ = nh_.advertise<PalletEvent>("/pallets/events", 1000);
+  ros::Publisher state_ = nh_.advertise<PalletArray>("/pallets/state", 1, true);
+  ros::Publisher pose_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/pose", 1);
+  ros::Publisher integrity_ = nh_.advertise<PoseIntegrity>("/pose/integrity", 1);
+  std::unique_ptr<test::Broker> broker_;
+  std::unique_ptr<MqttLink> link_, vda_;
+  std::unique_ptr<SiteClient> site_;
+  std::vector<json> arrived_;
+  std::map<std::string, json> vda_heard_;
+};
+
+TEST_F(WmsBridge, EveryEventArrivesOnceWhateverDies) {
+  auto node = std::make_unique<Node>(folder_ / "node.log");
+  ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0; })) << node->output();
+  publish(1, 30);
+  expect_arrived(30);
+  EXPECT_TRUE(counted("acknowledged", 30));
+  EXPECT_EQ(diagnostics_.value(kNode, "broker"), broker_->uri());
+  EXPECT_EQ(diagnostics_.hardware_id(kNode), "truck7");
+
+  broker_->kill();
+  publish(31, 60);
+  EXPECT_TRUE(counted("recorded", 60));
+  EXPECT_TRUE(until([&] { return diagnostics_.message(kNode).find("no broker") != std::string::npos; }));
+  node->end(SIGKILL);
+  broker_->start();
+  node = std::make_unique<Node>(folder_ / "node.log");
+  expect_arrived(60);
+
+  // What it cannot use, and what it misses, it says.
+  ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0; }));
+  PalletEvent wrong = pallet_event_message(change(61), "odom");
+  events_.publish(wrong);
+  EXPECT_TRUE(counted(std::string("dropped: ") + name(MessageDrop::kFrame), 1));
+  publish(64, 64);
+  EXPECT_TRUE(counted("missed", 3));
+  EXPECT_TRUE(until([&] { return diagnostics_.message(kNode).find("not heard") != std::string::npos; }));
+  wrong = pallet_event_message(change(65), "map");
+  wrong.pallet.id = "'; DROP TABLE event; --";
+  events_.publish(wrong);
+  EXPECT_TRUE(counted(std::string("dropped: ") + name(BridgeDrop::kPalletId), 1));
+  expect_arrived(61);
+  EXPECT_TRUE(WIFEXITED(node->end(SIGINT)));
+  EXPECT_TRUE(until([&] { return vda_heard_["connection"].value("connectionState", "") == "OFFLINE"; }));
+}
+
+TEST_F(WmsBridge, TellsTheTrucksState) {
+  Node node(folder_ / "node.log");
+  ASSERT_TRUE(until([&] { return pose_.getNumSubscribers() > 0 && integrity_.getNumSubscribers() > 0; }));
+  PalletArray pallets;
+  pallets.header.frame_id = "map";
+  for (const int n : {1, 4}) pallets.pallets.push_back(pallet_message(change(n).pallet));
+  state_.publish(pallets);
+  PoseIntegrity integrity;
+  integrity.mode = PoseIntegrity::TRACKING;
+  integrity.protection_level_m = 0.25;
+  PoseEstimate pose;
+  pose.T_map_base = Eigen::Translation3d(3, 4, 0);
+  EXPECT_TRUE(until([&] {
+    pose.stamp = test::clocks().wall;
+    pose_.publish(pose_estimate_message(pose, "map"));
+    integrity_.publish(integrity);
+    const json& state = vda_heard_["state"];
+    return state.contains("agvPosition") && state["agvPosition"]["positionInitialized"] == true;
+  })) << vda_heard_["state"].dump();
+  const json& state = vda_heard_["state"];
+  EXPECT_EQ(state["agvPosition"]["mapId"], "test-hall");
+  EXPECT_EQ(state["agvPosition"]["x"], 3.0);
+  EXPECT_EQ(state["agvPosition"]["localizationScore"], 0.5);
+  ASSERT_EQ(state["loads"].size(), 1u);
+  EXPECT_EQ(state["loads"][0]["loadId"], "106141412345678908");
+  EXPECT_EQ(vda_heard_["connection"]["connectionState"], "ONLINE");
+  EXPECT_EQ(vda_heard_["factsheet"]["version"], "2.1.0");
+  EXPECT_TRUE(until([&] { return vda_heard_.count("visualization") > 0; }));
+  // Nobody tells the pose any more.
+  EXPECT_TRUE(until([&] { return !vda_heard_["state"]["errors"].empty(); }));
+  EXPECT_EQ(vda_heard_["state"]["errors"][0]["errorType"], "localizationLost");
+}
+
+TEST_F(WmsBridge, AWrongStartListsAllFaults) {
+  ros::param::set("/wms_bridge/gln", "4012345000116");
+  ros::param::set("/wms_bridge/serial", "truck/7");
+  ros::param::set("/wms_bridge/brokers", "tcp://localhost");
+  ros::param::set("/wms_bridge/window", 0);
+  ros::param::set("/wms_bridge/no_such_thing", 1);
+  Node node(folder_ / "node.log");
+  const int status = node.join();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == EXIT_FAILURE);
+  for (const char* fault : {"gln: is '4012345000116'", "serial: is 'truck/7'", "brokers: is a text, must be a list",
+                            "window: is 0, must be at least 1", "no_such_thing: is no parameter"})
+    EXPECT_NE(node.output().find(fault), std::string::npos) << fault << " in\n" << node.output();
+}
+
+TEST(WmsBridgeConfig, TheDemosIsWhole) {
+  ros::param::set("/demo/store", "/tmp/wms.db");
+  ParamReader reader(ros::NodeHandle("/demo"));
+  const WmsSetup setup = read_wms_setup(reader, Site(), "/demo");
+  EXPECT_TRUE(reader.faults().empty()) << describe(reader.faults());
+  EXPECT_EQ(setup.mqtt.brokers.size(), 1u);
+}
+
+}  // namespace

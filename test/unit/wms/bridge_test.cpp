@@ -1,0 +1,327 @@
+// The bridge over a link that is a list: no broker, no thread, the time is what the test says.
+#include "lodestar/wms/bridge.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/bridge_params.hpp"
+#include "support/pallet_changes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lodestar {
+namespace {
+
+using nlohmann::json;
+using test::change;
+using test::uuid;
+
+class FakeLink : public MessageLink {
+ public:
+  void connect(std::size_t broker, const MqttMessage& will) override {
+    tried.push_back(broker);
+    wills.push_back(will);
+    inbox.push_back(working.at(broker) ? LinkEvent(LinkUp{}) : LinkEvent(LinkDown{"refused"}));
+  }
+  void subscribe(const std::string& topic, int) override { subscribed.push_back(topic); }
+  bool publish(const MqttMessage& message) override {
+    sent.push_back(message);
+    return true;
+  }
+  void disconnect() override {}
+  std::vector<LinkEvent> take() override { return std::exchange(inbox, {}); }
+
+  std::vector<MqttMessage> on(const std::string& end_of_topic) const {
+    std::vector<MqttMessage> out;
+    for (const MqttMessage& message : sent)
+      if (message.topic.size() >= end_of_topic.size() &&
+          message.topic.compare(message.topic.size() - end_of_topic.size(), std::string::npos, end_of_topic) == 0)
+        out.push_back(message);
+    return out;
+  }
+
+  std::vector<bool> working = {true};
+  std::vector<std::size_t> tried;
+  std::vector<MqttMessage> wills, sent;
+  std::vector<std::string> subscribed;
+  std::vector<LinkEvent> inbox;
+};
+
+class BridgeTest : public testing::Test {
+ protected:
+  BridgeTest() { params_.outbox.window = 50; }
+
+  ClockReading now() const { return {test::at(time_s_ + wall_offset_s_), Instant(from_seconds(1000 + time_s_))}; }
+  void poll(Bridge& bridge, int times = 1) {
+    for (int i = 0; i < times; ++i, time_s_ += 0.01) bridge.poll(now());
+  }
+  void acknowledge(const Bridge& bridge, std::uint64_t sequence) {
+    link_.inbox.push_back(
+        MqttMessage{"wms/v1/lodestar/truck7/ack", message_text(Acknowledgement{bridge.store().stream(), sequence})});
+  }
+
+  test::TemporaryFolder folder_{test::TemporaryFolder::memory()};
+  BridgeParams params_ = test::bridge_params(folder_ / "wms.db");
+  FakeLink link_;
+  double time_s_ = 0, wall_offset_s_ = 0;
+};
+
+TEST_F(BridgeTest, GreetsEachConnectionAnew) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  EXPECT_TRUE(bridge.connected());
+  ASSERT_EQ(link_.wills.size(), 1u);
+  EXPECT_EQ(link_.wills[0].topic, "uagv/v2/lodestar/truck7/connection");
+  EXPECT_EQ(json::parse(link_.wills[0].payload)["connectionState"], "CONNECTIONBROKEN");
+  EXPECT_EQ(link_.wills[0].qos, 1);
+  EXPECT_TRUE(link_.wills[0].retained);
+  EXPECT_EQ(link_.subscribed, std::vector<std::string>{"wms/v1/lodestar/truck7/ack"});
+  EXPECT_EQ(link_.on("/factsheet").size(), 1u);
+  EXPECT_EQ(link_.on("/stream").size(), 1u);
+
+  link_.inbox.push_back(LinkDown{"lost"});
+  poll(bridge, 3);
+  const auto connections = link_.on("/connection");
+  ASSERT_EQ(connections.size(), 2u);
+  for (const MqttMessage& message : connections) {
+    EXPECT_EQ(json::parse(message.payload)["connectionState"], "ONLINE");
+    EXPECT_EQ(message.qos, 1);
+    EXPECT_TRUE(message.retained);
+  }
+  EXPECT_LT(json::parse(connections[0].payload)["headerId"], json::parse(connections[1].payload)["headerId"]);
+  bridge.shut_down(now());
+  EXPECT_EQ(json::parse(link_.on("/connection").back().payload)["connectionState"], "OFFLINE");
+}
+
+TEST_F(BridgeTest, EventsLeaveOnTheSitesWordOnly) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  for (int n = 1; n <= 120; ++n) bridge.take(change(n), now());
+  poll(bridge, 5);
+  EXPECT_EQ(link_.on("/event").size(), 50u);
+  EXPECT_EQ(bridge.outbox().waiting(), 120u);
+  for (const auto& message : link_.on("/event")) EXPECT_EQ(message.qos, 1);
+  acknowledge(bridge, 50);
+  poll(bridge, 2);
+  EXPECT_EQ(bridge.store().acknowledged(), 50u);
+  EXPECT_EQ(link_.on("/event").size(), 100u);
+  acknowledge(bridge, 20);
+  acknowledge(bridge, 121);
+  poll(bridge, 2);
+  EXPECT_EQ(bridge.store().acknowledged(), 50u);
+}
+
+TEST_F(BridgeTest, ResendsTheSameOctetsEvenAfterARestart) {
+  std::vector<MqttMessage> first;
+  {
+    Bridge bridge(params_, link_, now());
+    poll(bridge, 2);
+    for (int n = 1; n <= 5; ++n) bridge.take(change(n), now());
+    poll(bridge, 2);
+    first = link_.on("/event");
+    ASSERT_EQ(first.size(), 5u);
+  }
+  time_s_ += 77;
+  link_ = FakeLink();
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 3);
+  const auto again = link_.on("/event");
+  ASSERT_EQ(again.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(again[i].payload, first[i].payload);
+}
+
+TEST_F(BridgeTest, OneOfTwoBrokersDies) {
+  params_.brokers = 2;
+  link_.working = {true, true};
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  bridge.take(change(1), now());
+  poll(bridge);
+  link_.working[0] = false;
+  link_.inbox.push_back(LinkDown{"lost"});
+  poll(bridge, 4);
+  EXPECT_EQ(link_.tried, (std::vector<std::size_t>{0, 0, 1}));
+  EXPECT_EQ(bridge.broker(), 1u);
+  EXPECT_EQ(link_.on("/event").size(), 2u);
+}
+
+TEST_F(BridgeTest, GapsAndRestartsOfTheTrackerAreCounted) {
+  Bridge bridge(params_, link_, now());
+  for (const int n : {2, 3, 6, 7}) bridge.take(change(n), now());
+  bridge.take(change(7), now());
+  EXPECT_EQ(bridge.heard().missed, 3u);
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kKnown], 1u);
+  EXPECT_EQ(bridge.heard().restarts, 0u);
+  PalletChange anew = change(1);
+  anew.stamp += from_seconds(5000);
+  bridge.take(anew, now());
+  EXPECT_EQ(bridge.heard().restarts, 1u);
+  EXPECT_EQ(bridge.store().last(), 5u);
+}
+
+TEST_F(BridgeTest, OddLabelsAndIds) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  std::uint64_t n = 0;
+  const std::vector<std::string> labels = {"106141412345678907", "'; DROP TABLE event; --", "<script>alert(1)</script>",
+                                           std::string(10240, '1'), "\xff\xfe"};
+  for (const std::string& label : labels) {
+    PalletChange odd = change(++n);
+    odd.pallet.sscc = label;
+    odd.pallet.zone = label;
+    odd.pallet.type = label;
+    odd.candidates = {label, uuid(7)};
+    odd.reason = label;
+    bridge.take(odd, now());
+  }
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kLabel], labels.size());
+  EXPECT_EQ(bridge.store().last(), labels.size());
+  for (const std::string& label : labels) {
+    PalletChange odd = change(++n);
+    odd.pallet.id = label;
+    bridge.take(odd, now());
+  }
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kPalletId], labels.size());
+  EXPECT_EQ(bridge.store().last(), labels.size());
+  poll(bridge, 2);
+  const auto events = link_.on("/event");
+  ASSERT_EQ(events.size(), labels.size());
+  for (const auto& message : events)
+    for (const json& event : json::parse(message.payload)["epcisBody"]["eventList"])
+      EXPECT_EQ(event.value("childEPCs", event.value("epcList", json()))[0].get<std::string>().substr(0, 9),
+                "urn:uuid:");
+}
+
+TEST_F(BridgeTest, AFullStoreHoldsNewEventsInMemoryAndSaysSo) {
+  params_.store.max_pages = 60;
+  params_.store.reserve_pages = 24;
+  params_.store.history = 1;
+  params_.most_in_memory = 20;
+  Bridge bridge(params_, link_, now());
+  std::uint64_t n = 0;
+  while (bridge.in_memory() < 20 && n < 5000) bridge.take(change(++n), now());
+  ASSERT_EQ(bridge.in_memory(), 20u);
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kLost], 0u);
+  bridge.take(change(n + 1), now());
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kLost], 1u);
+  poll(bridge, 3);
+  const json state = json::parse(link_.on("/state").back().payload);
+  EXPECT_EQ(state["errors"][0]["errorType"], "outboxFull");
+
+  // The site works it off: all that were held arrive, in order.
+  std::size_t delivered = 0;
+  std::uint64_t expected = 1;
+  for (int i = 0; i < 4000 && bridge.outbox().acknowledged() < n; ++i) {
+    const auto events = link_.on("/event");
+    for (; delivered < events.size(); ++delivered) {
+      const auto key = document_key_from(events[delivered].payload);
+      ASSERT_TRUE(key);
+      if (key->sequence == expected) ++expected;
+    }
+    acknowledge(bridge, expected - 1);
+    poll(bridge);
+  }
+  EXPECT_EQ(bridge.outbox().acknowledged(), n);
+  EXPECT_EQ(bridge.in_memory(), 0u);
+  EXPECT_EQ(json::parse(link_.on("/state").back().payload)["errors"][0]["errorType"], "localizationLost");
+}
+
+TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsBeforeIt) {
+  Bridge bridge(params_, link_, now());
+  bridge.take(change(1), now());
+  wall_offset_s_ = 3600;
+  poll(bridge);
+  EXPECT_EQ(bridge.clock_steps(), 1u);
+  bridge.take(change(2), now());
+  poll(bridge, 3);
+  const auto events = link_.on("/event");
+  ASSERT_EQ(events.size(), 2u);
+  const json before = json::parse(events[0].payload)["epcisBody"]["eventList"][0];
+  EXPECT_EQ(before["lodestar:clock"], "unsynchronised");
+  EXPECT_NEAR(before["lodestar:clockStep_s"].get<double>(), 3600, 0.1);
+  EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
+}
+
+TEST_F(BridgeTest, AStoreThatBreaksWhileItRunsIsReplaced) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  for (int n = 1; n <= 4; ++n) bridge.take(change(n), now());
+  poll(bridge);
+  const std::string old_stream = bridge.store().stream();
+  {
+    // All but the first page; the commit of another makes the store read its pages anew.
+    SQLite::Database other(params_.store.path, SQLite::OPEN_READWRITE);
+    other.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+    std::fstream file(params_.store.path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(4096);
+    file << std::string(std::filesystem::file_size(params_.store.path) - 4096, '\xee') << std::flush;
+    other.exec("PRAGMA user_version = 2");
+  }
+  for (int n = 5; n <= 30 && bridge.set_aside().empty(); ++n) {
+    bridge.take(change(n), now());
+    poll(bridge);
+  }
+  EXPECT_NE(bridge.set_aside(), "");
+  EXPECT_NE(bridge.store().stream(), old_stream);
+  EXPECT_GE(bridge.store_faults(), 1u);
+  // The site hears of the new numbers, and they are delivered.
+  const auto notice = stream_notice_from(link_.on("/stream").back().payload);
+  ASSERT_TRUE(notice);
+  EXPECT_EQ(notice->stream, bridge.store().stream());
+  bridge.take(change(40), now());
+  poll(bridge, 2);
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->stream, bridge.store().stream());
+}
+
+TEST_F(BridgeTest, TelemetryFollowsTheTruck) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  EXPECT_FALSE(json::parse(link_.on("/state").back().payload).contains("agvPosition"));
+  PoseEstimate pose;
+  for (int i = 0; i <= 100; ++i) {
+    pose.stamp = now().wall;
+    pose.T_map_base = Eigen::Translation3d(2 + 0.01 * i, 3, 0) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
+    bridge.telemetry().take_pose(pose, now().monotonic);
+    bridge.telemetry().take_integrity(true, 0.1);
+    poll(bridge);
+  }
+  bridge.telemetry().take_loads({change(1).pallet});
+  poll(bridge);
+  json state = json::parse(link_.on("/state").back().payload);
+  EXPECT_EQ(link_.on("/state").back().qos, 0);
+  EXPECT_EQ(state["operatingMode"], "MANUAL");
+  EXPECT_EQ(state["driving"], true);
+  EXPECT_EQ(state["agvPosition"]["positionInitialized"], true);
+  EXPECT_NEAR(state["agvPosition"]["localizationScore"].get<double>(), 0.8, 1e-9);
+  EXPECT_NEAR(state["agvPosition"]["deviationRange"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(state["agvPosition"]["theta"].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(state["loads"][0]["loadId"], "106141412345678908");
+  EXPECT_TRUE(state["errors"].empty());
+  const auto visualizations = link_.on("/visualization");
+  EXPECT_GE(visualizations.size(), 2u);
+
+  // Nobody renews the pose.
+  time_s_ += 10;
+  poll(bridge, 2);
+  state = json::parse(link_.on("/state").back().payload);
+  EXPECT_EQ(state["errors"][0]["errorType"], "localizationLost");
+  EXPECT_EQ(state["agvPosition"]["positionInitialized"], false);
+}
+
+TEST(BridgeParams, AllFaultsAtOnce) {
+  BridgeParams params = test::bridge_params("");
+  params.epcis = {"", "4012345000116", "map"};
+  params.vda.serial = "a/b";
+  params.brokers = 0;
+  const std::string faults = describe(check(params, "/wms_bridge"));
+  for (const char* word : {"giai", "gln", "coordinate_reference_system", "serial", "store", "brokers"})
+    EXPECT_NE(faults.find(word), std::string::npos) << word << " in\n" << faults;
+  EXPECT_TRUE(check(test::bridge_params("/tmp/x"), "").empty());
+}
+
+}  // namespace
+}  // namespace lodestar

@@ -1,0 +1,284 @@
+#include "lodestar/wms/event_store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "support/pallet_changes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lodestar {
+namespace {
+
+using test::change;
+using test::uuid;
+
+const std::string kStream = uuid(900);
+
+class Store : public testing::Test {
+ protected:
+  StoreParams params() const {
+    StoreParams params;
+    params.path = folder_ / "wms.db";
+    params.boot = "boot-1";
+    params.ballast_bytes = 65536;
+    return params;
+  }
+  static std::string freeze(const std::string& draft, std::uint64_t sequence, Duration step, const std::string& wrong) {
+    return std::to_string(sequence) + ":" + draft + (step == Duration::zero() ? "" : " stepped") +
+           (wrong.empty() ? "" : " corrects " + wrong);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Store, NumbersFromOneAndKeepsEverythingOverARestart) {
+  {
+    EventStore store(params(), kStream);
+    EXPECT_EQ(store.last(), 0u);
+    EXPECT_EQ(store.acknowledged(), 0u);
+    for (int n = 1; n <= 6; ++n) EXPECT_EQ(store.record(change(n), "d" + std::to_string(n)), Recorded::kNew);
+    EXPECT_TRUE(store.acknowledge(2));
+  }
+  EventStore store(params(), uuid(901));
+  EXPECT_EQ(store.stream(), kStream);
+  EXPECT_EQ(store.last(), 6u);
+  EXPECT_EQ(store.last_heard(), 6u);
+  EXPECT_EQ(store.acknowledged(), 2u);
+  const auto documents = store.documents(3, 3, freeze);
+  ASSERT_EQ(documents.size(), 3u);
+  EXPECT_EQ(documents[0].sequence, 3u);
+  EXPECT_EQ(documents[0].document, "3:d3");
+}
+
+TEST_F(Store, TheSameEventIsRecordedOnce) {
+  EventStore store(params(), kStream);
+  EXPECT_EQ(store.record(change(1), "d"), Recorded::kNew);
+  EXPECT_EQ(store.record(change(1), "d"), Recorded::kKnown);
+  EXPECT_EQ(store.last(), 1u);
+  // A tracker that began anew uses the number again, at another time.
+  PalletChange again = change(1);
+  again.stamp += from_seconds(3600);
+  EXPECT_EQ(store.record(again, "d"), Recorded::kNew);
+  EXPECT_EQ(store.last(), 2u);
+}
+
+TEST_F(Store, DocumentsAreFrozenOnce) {
+  int frozen = 0;
+  const auto count = [&](const std::string& draft, std::uint64_t, Duration, const std::string&) {
+    return draft + " frozen " + std::to_string(++frozen);
+  };
+  std::string first;
+  {
+    EventStore store(params(), kStream);
+    store.record(change(1), "d1");
+    first = store.documents(1, 50, count)[0].document;
+    EXPECT_EQ(store.documents(1, 50, count)[0].document, first);
+    store.record(change(2), "d2");
+  }
+  EventStore store(params(), kStream);
+  EXPECT_EQ(store.documents(1, 50, count)[0].document, first);
+  EXPECT_EQ(frozen, 2);
+}
+
+TEST_F(Store, ACorrectionFindsWhatItCorrects) {
+  EventStore store(params(), kStream);
+  store.record(change(1), "d1");
+  store.record(change(2), "d2");
+  PalletChange correction = change(3);
+  correction.kind = PalletChangeKind::kCorrection;
+  correction.corrects = 2;
+  store.record(correction, "d3");
+  EXPECT_EQ(store.documents(1, 50, freeze)[2].document, "3:d3 corrects 2:d2");
+  correction.sequence = 4;
+  correction.corrects = 77;
+  store.record(correction, "d4");
+  EXPECT_EQ(store.documents(4, 50, freeze)[0].document, "4:d4");
+}
+
+TEST_F(Store, AcknowledgementsOnlyGoForward) {
+  StoreParams short_history = params();
+  short_history.history = 1;
+  EventStore store(short_history, kStream);
+  for (int n = 1; n <= 5; ++n) store.record(change(n), "d");
+  store.acknowledge(3);
+  EXPECT_EQ(store.acknowledged(), 3u);
+  store.acknowledge(2);
+  store.acknowledge(0);
+  EXPECT_EQ(store.acknowledged(), 3u);
+  store.acknowledge(9);
+  EXPECT_EQ(store.acknowledged(), 3u);
+  EXPECT_EQ(store.documents(1, 50, freeze).front().sequence, 3u);
+}
+
+TEST_F(Store, PalletsAndTheirPlaces) {
+  EventStore store(params(), kStream);
+  for (int n = 1; n <= 40; ++n) store.record(change(n), "d");
+  // Drop 2 set pallet 1 down at x = 0.5, drop 4 pallet 2 at 1.0, ...
+  auto found = store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].id, uuid(1));
+  EXPECT_EQ(found[0].zone, "A-1");
+  EXPECT_EQ(found[0].sequence, 2u);
+  // Picked up again it stands nowhere.
+  store.record(change(41), "d");
+  found = store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id, uuid(2));
+}
+
+TEST_F(Store, AFullFileKeepsAllAndIsWorkedOff) {
+  StoreParams small = params();
+  small.max_pages = 60;
+  small.reserve_pages = 16;
+  small.history = 1;
+  EventStore store(small, kStream);
+  const std::string draft(2000, 'd');
+  std::uint64_t n = 1;
+  while (store.record(change(n), draft) == Recorded::kNew) ++n;
+  EXPECT_TRUE(store.full());
+  const std::uint64_t held = n - 1;
+  EXPECT_GT(held, 20u);
+  EXPECT_EQ(store.last(), held);
+  EXPECT_EQ(store.record(change(n), draft), Recorded::kFull);
+
+  std::uint64_t next = 1;
+  while (next <= held) {
+    const auto documents = store.documents(next, 50, freeze);
+    ASSERT_FALSE(documents.empty()) << "at " << next;
+    for (const auto& document : documents) EXPECT_EQ(document.sequence, next++);
+    ASSERT_TRUE(store.acknowledge(next - 1));
+  }
+  EXPECT_EQ(store.record(change(n), draft), Recorded::kNew);
+  EXPECT_FALSE(store.full());
+  EXPECT_EQ(store.last(), held + 1);
+}
+
+TEST_F(Store, AFullDiskIsWorkedOffFromTheBallast) {
+  const std::string disk = folder_ / "disk";
+  std::filesystem::create_directory(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=3m") != 0)
+    GTEST_SKIP() << "no right to mount a small disk: " << std::strerror(errno);
+  {
+    StoreParams on_disk = params();
+    on_disk.path = disk + "/wms.db";
+    on_disk.ballast_bytes = 1 << 20;
+    on_disk.history = 1;
+    EventStore store(on_disk, kStream);
+    const std::string draft(4000, 'd');
+    std::uint64_t n = 1;
+    while (n < 20 && store.record(change(n), draft) == Recorded::kNew) ++n;
+    // Somebody else fills the disk.
+    std::ofstream filler(disk + "/filler");
+    while (filler << std::string(4096, 'f') << std::flush) {
+    }
+    while (n < 2000 && store.record(change(n), draft) == Recorded::kNew) ++n;
+    EXPECT_TRUE(store.full());
+    const std::uint64_t held = store.last();
+    std::uint64_t next = 1;
+    while (next <= held) {
+      const auto documents = store.documents(next, 5, freeze);
+      ASSERT_FALSE(documents.empty()) << "at " << next << " of " << held;
+      for (const auto& document : documents) EXPECT_EQ(document.sequence, next++);
+      ASSERT_TRUE(store.acknowledge(next - 1)) << "at " << next << " of " << held;
+    }
+    EXPECT_EQ(store.record(change(n), draft), Recorded::kFull) << "the ballast is for emptying the queue alone";
+    std::filesystem::remove(disk + "/filler");
+    filler.close();
+    EXPECT_EQ(store.record(change(n), draft), Recorded::kNew);
+    EXPECT_EQ(store.last(), held + 1);
+  }
+  umount(disk.c_str());
+}
+
+TEST_F(Store, AClockThatIsSetMarksWhatNobodyWasHanded) {
+  {
+    EventStore store(params(), kStream);
+    EXPECT_FALSE(store.clock_offset());
+    store.keep_clock_offset(from_seconds(5));
+    store.record(change(1), "d1");
+    store.record(change(2), "d2");
+    store.documents(1, 1, freeze);
+    EXPECT_EQ(store.mark_clock_step(from_seconds(3600)), 1);
+    store.record(change(3), "d3");
+    const auto documents = store.documents(1, 50, freeze);
+    EXPECT_EQ(documents[0].document, "1:d1");
+    EXPECT_EQ(documents[1].document, "2:d2 stepped");
+    EXPECT_EQ(documents[2].document, "3:d3");
+    store.record(change(4), "d4");
+    EXPECT_EQ(store.clock_offset(), from_seconds(5));
+  }
+  StoreParams rebooted = params();
+  rebooted.boot = "boot-2";
+  EventStore store(rebooted, kStream);
+  EXPECT_FALSE(store.clock_offset());
+  EXPECT_EQ(store.mark_clock_step(from_seconds(3600)), 0);
+}
+
+TEST_F(Store, ADamagedFileIsSetAsideAndANewOneBegins) {
+  std::ofstream(params().path) << std::string(20000, 'x');
+  auto opened = open_store(params(), kStream);
+  EXPECT_EQ(opened.set_aside, params().path + ".corrupt-1");
+  EXPECT_NE(opened.damage, "");
+  EXPECT_TRUE(std::filesystem::exists(opened.set_aside));
+  EXPECT_EQ(opened.store->record(change(1), "d"), Recorded::kNew);
+  opened.store.reset();
+
+  // The pages of a store that were overwritten in the middle; its log is gone.
+  for (int n = 0; n < 3; ++n) {
+    EventStore store(params(), kStream);
+    store.record(change(10 + n), std::string(30000, 'd'));
+  }
+  {
+    std::fstream file(params().path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(8192);
+    file << std::string(40000, '\xff');
+  }
+  opened = open_store(params(), uuid(902));
+  EXPECT_EQ(opened.set_aside, params().path + ".corrupt-2");
+  EXPECT_EQ(opened.store->stream(), uuid(902));
+  EXPECT_EQ(opened.store->last(), 0u);
+}
+
+TEST_F(Store, AnOlderFileIsBroughtUpANewerOneIsLeftAlone) {
+  {
+    EventStore store(params(), kStream);
+    store.record(change(1), "d1");
+  }
+  {
+    // As version 1 left it.
+    SQLite::Database old(params().path, SQLite::OPEN_READWRITE);
+    old.exec("ALTER TABLE event DROP COLUMN boot");
+    old.exec("ALTER TABLE event DROP COLUMN clock_step_ns");
+    old.exec("PRAGMA user_version = 1");
+  }
+  {
+    EventStore store(params(), kStream);
+    EXPECT_EQ(store.documents(1, 50, freeze)[0].document, "1:d1");
+    EXPECT_EQ(store.record(change(2), "d2"), Recorded::kNew);
+  }
+  SQLite::Database(params().path, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  EXPECT_THROW(open_store(params(), kStream), SQLite::Exception);
+  EXPECT_FALSE(std::filesystem::exists(params().path + ".corrupt-1"));
+}
+
+TEST_F(Store, TextStaysText) {
+  EventStore store(params(), kStream);
+  PalletChange odd = change(2);
+  odd.pallet.zone = "'); DROP TABLE event; --";
+  odd.pallet.id = std::string(10240, 'i');
+  EXPECT_EQ(store.record(odd, "<script>alert(1)</script>"), Recorded::kNew);
+  EXPECT_EQ(store.documents(1, 1, freeze)[0].document, "1:<script>alert(1)</script>");
+  const auto found = store.pallets_in({{-99, -99, -99}, {99, 99, 99}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].zone, odd.pallet.zone);
+  EXPECT_EQ(found[0].id, odd.pallet.id);
+}
+
+}  // namespace
+}  // namespace lodestar
