@@ -8,9 +8,10 @@ namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {
-    {"vehicle", false}, {"camera", false}, {"imu", false}, {"odometry", false}, {"infrared", false}};
+const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false},   {"imu", false},
+                                        {"odometry", false}, {"infrared", false}, {"fork", false}};
 const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
+const std::vector<YamlKey> kForkKeys = {{"position_m", true}, {"yaw_deg", false}};
 const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
 const std::vector<YamlKey> kCameraKeys = {
     {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false},  {"window_frames", false},
@@ -77,6 +78,16 @@ void read_odometry(const YamlMap& map, Vehicle& vehicle) {
   read(map, "scale_sigma", within(0, 0.5), vehicle.odometry_scale_sigma);
 }
 
+std::optional<RigidTransform> read_fork(const YamlMap& map) {
+  const auto position = map.numbers("position_m", 3, 3, within(-30, 30));
+  const double yaw_deg = map.number("yaw_deg", within(-360, 360)).value_or(0.0);
+  if (!position) return std::nullopt;
+  RigidTransform T_base_fork = RigidTransform::Identity();
+  T_base_fork.translation() = Eigen::Vector3d((*position)[0].value, (*position)[1].value, (*position)[2].value);
+  T_base_fork.linear() = rotation({0, 0, radians(yaw_deg)});
+  return T_base_fork;
+}
+
 Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
   Vehicle vehicle;
@@ -84,6 +95,7 @@ Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   read_camera(file.section("camera", kCameraKeys), vehicle);
   read_imu(file.section("imu", kImuKeys), vehicle);
   read_odometry(file.section("odometry", kOdometryKeys), vehicle);
+  if (file.has("fork")) vehicle.T_base_fork = read_fork(file.section("fork", kForkKeys));
   vehicle.has_ir_receiver = file.section("infrared", kInfraredKeys).boolean("receiver").value_or(true);
   return vehicle;
 }

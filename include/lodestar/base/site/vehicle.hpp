@@ -15,6 +15,7 @@ struct Vehicle {
   std::string name = "truck";
   std::optional<RigidTransform> T_base_camera;  ///< empty: from /tf_static
   std::optional<RigidTransform> T_base_imu;     ///< empty: from /tf_static
+  std::optional<RigidTransform> T_base_fork;    ///< at its lowest, x along the tines; empty: from /tf_static
   double camera_mount_sigma_rad = 0.002;        ///< of the mount's roll, pitch, yaw
   std::optional<int> window_frames;             ///< empty: window_frames(tone table, rate)
   std::optional<double> camera_rate_hz;         ///< empty: from the stamps

@@ -27,6 +27,7 @@ odometry:
   velocity_sigma_m_s: 0.05
   yaw_rate_sigma_deg_s: 1
   scale_sigma: 0.03
+fork: {position_m: [1.4, 0, 0.08], yaw_deg: 90}
 )";
 
 TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
@@ -53,6 +54,9 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   EXPECT_EQ(vehicle->odometry_velocity_sigma_m_s, 0.05);
   EXPECT_NEAR(vehicle->odometry_yaw_rate_sigma_rad_s, radians(1), 1e-15);
   EXPECT_EQ(vehicle->odometry_scale_sigma, 0.03);
+  ASSERT_TRUE(vehicle->T_base_fork);
+  EXPECT_EQ(vehicle->T_base_fork->translation(), Eigen::Vector3d(1.4, 0, 0.08));
+  EXPECT_NEAR(roll_pitch_yaw(vehicle->T_base_fork->linear()).yaw_rad, radians(90), 1e-12);
 }
 
 TEST(Vehicle, says_where_its_camera_clips) {
@@ -68,6 +72,7 @@ TEST(Vehicle, what_is_left_out_keeps_its_default) {
   const Vehicle defaults;
   EXPECT_FALSE(vehicle->T_base_camera);
   EXPECT_FALSE(vehicle->T_base_imu);
+  EXPECT_FALSE(vehicle->T_base_fork);
   EXPECT_FALSE(vehicle->window_frames);
   EXPECT_FALSE(vehicle->camera_rate_hz);
   EXPECT_EQ(vehicle->camera_mount_sigma_rad, defaults.camera_mount_sigma_rad);
@@ -105,6 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "7: camera.time_offset_s is -4: give a number from -1 to 1"},
                     Wrong{"velocity_sigma_m_s: 0.05", "velocity_sigma_m_s: 0",
                           "17: odometry.velocity_sigma_m_s is 0: give a number above 0 and up to 5"},
+                    Wrong{"position_m: [1.4, 0, 0.08], ", "", "20: fork has no \"position_m\": add it"},
                     Wrong{"{name: t7}", "{}", "1: vehicle has no \"name\": add it"},
                     Wrong{"odometry:", "imu: {}\nodometry:",
                           "16: key \"imu\" is there twice (first on line 11): keep one"}));
