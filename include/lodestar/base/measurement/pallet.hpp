@@ -14,11 +14,11 @@ namespace lodestar {
 enum class PalletState : std::uint8_t {
   kOnFork = 1,     ///< of this truck
   kStanding = 2,   ///< where it was set down
-  kGone = 3,       ///< left the site by a dock zone
+  kGone = 3,       ///< left the site by a dock zone, or proved to be another pallet that is known
   kUncertain = 4,  ///< it, or where it is, is in doubt: a person is asked, nothing is guessed
 };
 
-/// One pallet as this truck knows it.
+/// One pallet as this truck knows it (lodestar/PalletEntry on the wire).
 struct Pallet {
   std::string id;    ///< RFC 4122 UUID in lower case, given when it was first met; never changes
   std::string sscc;  ///< GS1 SSCC, 18 digits with a valid check digit; empty: its label was never read
@@ -32,22 +32,21 @@ struct Pallet {
   bool coasting = false;  ///< its pose was taken while localization had no beacon: the covariance says how good it is
 };
 
-enum class PalletEventKind : std::uint8_t {
+enum class PalletChangeKind : std::uint8_t {
   kPick = 1,        ///< lifted by the fork
   kDrop = 2,        ///< set down
-  kCorrection = 3,  ///< a person or the warehouse's software knew better
+  kCorrection = 3,  ///< a person, the warehouse's software or a label read later knew better
 };
 
-/// What happened to one pallet, with the pallet as it is afterwards.
-struct PalletEvent {
+/// What happened to one pallet, with the pallet as it is afterwards (lodestar/PalletEvent on the wire).
+struct PalletChange {
   std::uint64_t sequence = 0;  ///< 1 for this truck's first; without gaps
   Stamp stamp;                 ///< when it happened
-  PalletEventKind kind = PalletEventKind::kPick;
+  PalletChangeKind kind = PalletChangeKind::kPick;
   Pallet pallet;
-  std::vector<std::string>
-      candidates;              ///< ids of the pallets that it may be, most likely first, where that is in doubt
-  std::string reason;          ///< of a correction, in the words of who made it
-  std::uint64_t corrects = 0;  ///< the sequence number of the event that a correction calls wrong; 0: none
+  std::vector<std::string> candidates;  ///< ids of the pallets that it may be, most likely first; empty: no doubt
+  std::string reason;                   ///< of a correction, in the words of who made it
+  std::uint64_t corrects = 0;           ///< the sequence number of the event that a correction calls wrong; 0: none
 };
 
 }  // namespace lodestar
