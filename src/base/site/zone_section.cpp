@@ -15,6 +15,7 @@ const std::vector<YamlKey> kPlaceKeys = {
 const Limits kCoordinate = within(-10000, 10000);
 constexpr std::size_t kMostCorners = 1000, kMostLevels = 100;
 constexpr std::size_t kLongestCode = 32;
+constexpr int kMostInLine = 200;       // places; a larger hall is more than one zone
 constexpr double kTouching_m2 = 1e-6;  ///< of two zones with a side in common, after rounding
 
 /// A zone with the line that it stands on.
@@ -70,8 +71,8 @@ void read_places(const YamlMap& map, Zone& zone) {
   PlaceGrid grid;
   const auto first = map.numbers("first_m", 2, 2, kCoordinate);
   const auto pitch = map.numbers("pitch_m", 2, 2, above(0, 100));
-  const auto columns = map.integer("columns", within(1, 1000));
-  const auto rows = map.integer("rows", within(1, 1000));
+  const auto columns = map.integer("columns", within(1, kMostInLine));
+  const auto rows = map.integer("rows", within(1, kMostInLine));
   grid.yaw_rad = radians(map.number("yaw_deg", within(-360, 360)).value_or(0.0));
   if (!first || !pitch || !columns || !rows) return;
   grid.first_m = {(*first)[0].value, (*first)[1].value};
@@ -80,7 +81,9 @@ void read_places(const YamlMap& map, Zone& zone) {
   grid.rows = static_cast<int>(*rows);
   zone.grid = grid;
   if (zone.polygon_map.empty()) return;
-  for (const Place& place : grid_places(zone))
+  Zone ground = zone;
+  ground.levels_m.clear();
+  for (const Place& place : grid_places(ground))
     if (!contains(zone.polygon_map, place.position_map.head<2>()))
       return map.fault("first_m", "puts place " + quote(place.code) + " outside polygon_m: move or shrink the grid");
 }
