@@ -1,7 +1,7 @@
 #include "lodestar/estimation/pallet/correction.hpp"
 
+#include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/estimation/pallet/placing.hpp"
-#include "lodestar/estimation/pallet/sscc.hpp"
 
 namespace lodestar {
 namespace {

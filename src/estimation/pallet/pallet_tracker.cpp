@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/estimation/pallet/placing.hpp"
-#include "lodestar/estimation/pallet/sscc.hpp"
 
 namespace lodestar {
 namespace {

@@ -1,4 +1,4 @@
-#include "lodestar/estimation/pallet/sscc.hpp"
+#include "lodestar/base/measurement/sscc.hpp"
 
 #include <algorithm>
 
