@@ -73,6 +73,7 @@ PalletTracker::Changes PalletTracker::add_load(const LoadSample& sample) {
     drops_.add(PalletDrop::kLateLoad);
     return {};
   }
+  fork_height_m_ = sample.fork_height_m;
   LoadSample checked = sample;
   if (!sample.label.empty() && !is_sscc(sample.label)) {
     drops_.add(PalletDrop::kLabel);
@@ -94,6 +95,23 @@ Result<PalletTracker::Changes, CorrectionFault> PalletTracker::correct(const Pal
   if (const auto fault = lodestar::correct(ledger_, params_.zones, correction, is_carried)) return *fault;
   if (is_carried && !correction.same_as.empty()) carried->id = correction.same_as;
   return ledger_.take();
+}
+
+std::vector<Pallet> PalletTracker::now() const {
+  std::vector<Pallet> out;
+  const auto entry = poses_.newest();
+  for (const auto& [id, change] : pallets().all()) {
+    Pallet& pallet = out.emplace_back(change.pallet);
+    const auto carried = std::find_if(carried_.begin(), carried_.end(),
+                                      [&](const CarriedPallet& candidate) { return candidate.id == pallet.id; });
+    if (carried == carried_.end() || !entry || !T_base_fork_) continue;
+    const PalletPose pose =
+        pallet_on(fork_at(entry->pose, *T_base_fork_, fork_height_m_, params_.sigmas.height_m), carried->seat);
+    pallet.T_map_pallet = pose.T_map_pallet;
+    pallet.covariance = pose.covariance;
+    pallet.coasting = entry->coasting;
+  }
+  return out;
 }
 
 std::optional<PalletTracker::Moment> PalletTracker::moment(const LoadChange& change) {

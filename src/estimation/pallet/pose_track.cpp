@@ -20,4 +20,9 @@ std::optional<PoseTrack::Entry> PoseTrack::at(Stamp stamp) const {
   return *nearest;
 }
 
+std::optional<PoseTrack::Entry> PoseTrack::newest() const {
+  if (entries_.empty()) return std::nullopt;
+  return entries_.back();
+}
+
 }  // namespace lodestar

@@ -66,6 +66,9 @@ class PalletTracker {
   Result<Changes, CorrectionFault> correct(const PalletCorrection& correction);
 
   const PalletMap& pallets() const { return ledger_.map(); }
+  /// All pallets, ascending by id: those on the fork where the newest pose has them now, and not where they were
+  /// lifted.
+  std::vector<Pallet> now() const;
   const std::vector<CarriedPallet>& carried() const { return carried_; }
   const DropCounts<PalletDrop>& drops() const { return drops_; }
   /// Forgets poses and load samples; pallets stay (time went backwards).
@@ -95,6 +98,7 @@ class PalletTracker {
   PalletLedger ledger_;
   LoadWatch load_;
   PoseTrack poses_;
+  double fork_height_m_ = 0;            ///< of the newest load sample
   std::vector<CarriedPallet> carried_;  ///< from below
   DropCounts<PalletDrop> drops_;
 };

@@ -21,6 +21,7 @@ class PoseTrack {
   bool add(const PoseEstimate& pose, bool coasting);
   /// The pose nearest to the instant; empty where none is within max_age_s.
   std::optional<Entry> at(Stamp stamp) const;
+  std::optional<Entry> newest() const;
   void clear() { entries_.clear(); }
 
  private:
