@@ -43,7 +43,8 @@ RecordingWriterParams writer_params(const sim::Scenario& scenario, const std::st
   params.tone_table_hz = scenario.site.tone_table_hz;
   params.mounts = {{params.frames.base, params.frames.camera, scenario.T_base_camera},
                    {params.frames.base, params.frames.imu, scenario.imu.T_base_imu},
-                   {params.frames.base, params.frames.ir_array, scenario.ir.T_base_ir}};
+                   {params.frames.base, params.frames.ir_array, scenario.ir.T_base_ir},
+                   {params.frames.base, params.frames.fork, scenario.T_base_fork}};
   if (compression == "none")
     params.compression = BagCompression::kNone;
   else if (compression == "bz2")

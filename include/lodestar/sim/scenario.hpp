@@ -46,6 +46,7 @@ struct Scenario {
 
   CameraParams camera;
   RigidTransform T_base_camera = RigidTransform::Identity();
+  RigidTransform T_base_fork{Eigen::Translation3d(0.875, 0, 0.08)};  ///< at its lowest, x along the tines
   BeaconLightParams beacons;
   IrReceiverParams ir;
   bool has_camera = true, has_ir = true, has_imu = true, has_odometry = true;

@@ -30,6 +30,7 @@ const char* const kOdom = "odom";
 const char* const kCamera = "camera_optical_frame";
 const char* const kImu = "imu_link";
 const char* const kIr = "ir_array";
+const char* const kFork = "fork";
 }  // namespace
 
 void SimulationNodelet::onInit() {
@@ -79,7 +80,8 @@ void SimulationNodelet::publish_mounts() {
   mounts_->sendTransform(
       std::vector<geometry_msgs::TransformStamped>{transform_message(scenario_.T_base_camera, stamp, kBase, kCamera),
                                                    transform_message(scenario_.imu.T_base_imu, stamp, kBase, kImu),
-                                                   transform_message(scenario_.ir.T_base_ir, stamp, kBase, kIr)});
+                                                   transform_message(scenario_.ir.T_base_ir, stamp, kBase, kIr),
+                                                   transform_message(scenario_.T_base_fork, stamp, kBase, kFork)});
 }
 
 void SimulationNodelet::step() {

@@ -53,6 +53,7 @@ struct RecordingFrames {
   std::string camera = "camera_optical_frame";
   std::string imu = "imu_link";
   std::string ir_array = "ir_array";
+  std::string fork = "fork";
 };
 
 /// A rigid joint of the vehicle.
