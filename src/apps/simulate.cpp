@@ -76,6 +76,7 @@ class BagSink {
   void put(Stamp received, const sim::TrueCamera& camera) {
     writer_.write(received, TruthCameraPose{camera.stamp, camera.T_map_camera});
   }
+  void put(Stamp received, const sim::TruePallets& truth) { writer_.write(received, truth.pallets, truth.stamp); }
   template <class Sample>
   void put(Stamp received, const Sample& sample) {
     writer_.write(received, sample);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lodestar/base/common/angle.hpp"
+#include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
 
 namespace lodestar::test {
@@ -97,9 +98,7 @@ class BlockStore {
   static std::string sscc(int number) {
     std::string digits = std::to_string(100000000 + number);
     digits.insert(0, 17 - digits.size(), '0');
-    int sum = 0;
-    for (std::size_t i = 0; i < 17; ++i) sum += (digits[i] - '0') * (i % 2 == 0 ? 3 : 1);
-    return digits + static_cast<char>('0' + (10 - sum % 10) % 10);
+    return digits + sscc_check_digit(digits);
   }
 
   void move() {

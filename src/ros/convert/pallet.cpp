@@ -67,6 +67,14 @@ PalletEntry pallet_message(const Pallet& pallet) {
   return message;
 }
 
+PalletArray pallet_array_message(const std::vector<Pallet>& pallets, Stamp stamp, const std::string& map_frame) {
+  PalletArray message;
+  message.header.stamp = ros_time(stamp);
+  message.header.frame_id = map_frame;
+  for (const Pallet& pallet : pallets) message.pallets.push_back(pallet_message(pallet));
+  return message;
+}
+
 Result<PalletChange, MessageDrop> pallet_change_from(const PalletEvent& message, const std::string& map_frame) {
   if (message.header.stamp.isZero()) return MessageDrop::kStamp;
   if (message.header.frame_id != map_frame) return MessageDrop::kFrame;

@@ -88,11 +88,7 @@ void PalletTrackingNodelet::tell(const PalletTracker::Changes& changes) {
 }
 
 void PalletTrackingNodelet::tell_state() {
-  PalletArray message;
-  message.header.stamp = ros_time(newest_);
-  message.header.frame_id = edge_->map_frame();
-  for (const Pallet& pallet : tracker_->now()) message.pallets.push_back(pallet_message(pallet));
-  state_.publish(message);
+  state_.publish(pallet_array_message(tracker_->now(), newest_, edge_->map_frame()));
   told_ = newest_;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lodestar/LoadState.h"
+#include "lodestar/PalletArray.h"
 #include "lodestar/PalletEntry.h"
 #include "lodestar/PalletEvent.h"
 #include "lodestar/base/common/result.hpp"
@@ -18,6 +20,8 @@ LoadState load_message(const LoadSample& sample, const std::string& fork_frame);
 /// A state or kind that the message does not know is kRange.
 Result<Pallet, MessageDrop> pallet_from(const PalletEntry& message);
 PalletEntry pallet_message(const Pallet& pallet);
+
+PalletArray pallet_array_message(const std::vector<Pallet>& pallets, Stamp stamp, const std::string& map_frame);
 
 Result<PalletChange, MessageDrop> pallet_change_from(const PalletEvent& message, const std::string& map_frame);
 PalletEvent pallet_event_message(const PalletChange& change, const std::string& map_frame);
