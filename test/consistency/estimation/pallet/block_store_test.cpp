@@ -24,7 +24,9 @@ TEST(BlockStore, every_pallet_is_the_right_one_and_where_it_was_set_down) {
   EXPECT_GT(tally.identified, 1000);
   EXPECT_LT(tally.mean_error_m(), 0.030);
   EXPECT_LT(tally.mean_yaw_error_rad(), radians(1));
-  printf("wrong %d asked %d identified %d stacks %d unread %d err %.4f yaw %.3f nees %.3f max %.3f\n", tally.wrong, tally.asked, tally.identified, tally.stacks, tally.unread, tally.mean_error_m(), degrees(tally.mean_yaw_error_rad()), tally.mean_nees(), tally.error_max_m);
+  printf("wrong %d asked %d identified %d stacks %d unread %d err %.4f yaw %.3f nees %.3f max %.3f\n", tally.wrong,
+         tally.asked, tally.identified, tally.stacks, tally.unread, tally.mean_error_m(),
+         degrees(tally.mean_yaw_error_rad()), tally.mean_nees(), tally.error_max_m);
 }
 
 }  // namespace
