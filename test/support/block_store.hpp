@@ -17,6 +17,7 @@ namespace lodestar::test {
 /// tracker is told poses with errors of their own covariance, load samples and, now and then, a label.
 struct BlockStoreParams {
   int columns = 5, rows = 8;
+  std::size_t stack = 2;  ///< pallets upon one another
   double gap_m = 0.1;
   double label_probability = 0.7;  ///< of each pick
   double load_height_m = 1.1;      ///< pallet with goods, what the upper one of two stands upon
@@ -107,7 +108,7 @@ class BlockStore {
     std::vector<std::size_t> full, open;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       if (!places_[i].empty()) full.push_back(i);
-      if (places_[i].size() < 2) open.push_back(i);
+      if (places_[i].size() < params_.stack) open.push_back(i);
     }
     const bool must_bring = full.size() < places_.size() / 3, must_take = open.size() < places_.size() / 6;
     if (must_bring || (kind < 3 && !must_take)) {
@@ -125,7 +126,7 @@ class BlockStore {
     pick(load);
     open.clear();
     for (std::size_t i = 0; i < places_.size(); ++i)
-      if (places_[i].size() + load.size() <= 2) open.push_back(i);
+      if (places_[i].size() + load.size() <= params_.stack) open.push_back(i);
     if (kind < 6 || open.empty()) return leave(load);
     set_down(load, open[static_cast<std::size_t>(pick_of(static_cast<int>(open.size())))]);
   }
