@@ -4,7 +4,7 @@
 
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/base/site/site.hpp"
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 

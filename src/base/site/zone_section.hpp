@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lodestar/base/site/zone.hpp"
-#include "yaml_map.hpp"
+#include "lodestar/base/yaml/yaml_map.hpp"
 
 namespace lodestar {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "fault_log.hpp"
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/fault_log.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 

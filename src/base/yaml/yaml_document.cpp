@@ -1,4 +1,4 @@
-#include "yaml_document.hpp"
+#include "lodestar/base/yaml/yaml_document.hpp"
 
 #include <yaml-cpp/eventhandler.h>
 
@@ -9,7 +9,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 namespace {
