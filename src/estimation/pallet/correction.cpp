@@ -6,11 +6,12 @@
 namespace lodestar {
 namespace {
 
-std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrection& correction, bool carried) {
+std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrection& correction) {
   if (map.find(correction.id) == nullptr) return CorrectionFault::kUnknownPallet;
   if (!correction.same_as.empty()) {
     const PalletChange* same = map.find(correction.same_as);
-    if (same == nullptr || correction.same_as == correction.id || same->pallet.state == PalletState::kOnFork)
+    if (same == nullptr || correction.same_as == correction.id ||
+        (map.carries(correction.same_as) && !map.carries(correction.id)))
       return CorrectionFault::kUnknownSame;
   }
   if (!correction.sscc.empty()) {
@@ -20,7 +21,7 @@ std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrec
       return CorrectionFault::kSsccTaken;
   }
   if (!correction.type.empty() && map.find_size(correction.type) == nullptr) return CorrectionFault::kType;
-  if (carried && (correction.gone || correction.pose)) return CorrectionFault::kOnFork;
+  if (map.carries(correction.id) && (correction.gone || correction.pose)) return CorrectionFault::kOnFork;
   return std::nullopt;
 }
 
@@ -45,9 +46,9 @@ const char* name(CorrectionFault fault) {
 }
 
 std::optional<CorrectionFault> correct(PalletLedger& ledger, const std::vector<Zone>& zones,
-                                       const PalletCorrection& correction, bool carried) {
-  if (const auto fault = fault_of(ledger.map(), correction, carried)) return fault;
-  const PalletState here = carried ? PalletState::kOnFork : PalletState::kStanding;
+                                       const PalletCorrection& correction) {
+  if (const auto fault = fault_of(ledger.map(), correction)) return fault;
+  const PalletState here = ledger.map().carries(correction.id) ? PalletState::kOnFork : PalletState::kStanding;
   const bool merged = !correction.same_as.empty();
   if (merged) ledger.merge(correction.id, correction.same_as, here, correction.stamp, correction.reason);
   const std::string& id = merged ? correction.same_as : correction.id;

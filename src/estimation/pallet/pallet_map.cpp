@@ -53,7 +53,7 @@ const PalletSize& PalletMap::size(const std::string& type) const {
 std::vector<const Pallet*> PalletMap::standing() const {
   std::vector<const Pallet*> out;
   for (const auto& [id, change] : latest_)
-    if (is_here(change.pallet)) out.push_back(&change.pallet);
+    if (!carries(id) && is_here(change.pallet)) out.push_back(&change.pallet);
   return out;
 }
 

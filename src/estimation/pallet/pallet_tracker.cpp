@@ -1,6 +1,7 @@
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/estimation/pallet/placing.hpp"
@@ -53,7 +54,7 @@ PalletTracker::PalletTracker(const PalletTrackerParams& params, std::function<st
 
 void PalletTracker::restore(const Changes& latest, const std::vector<CarriedPallet>& carried) {
   ledger_.restore(latest);
-  carried_ = carried;
+  carry(carried);
   load_ = LoadWatch(params_.load, !carried.empty());
 }
 
@@ -89,12 +90,25 @@ PalletTracker::Changes PalletTracker::add_load(const LoadSample& sample) {
 }
 
 Result<PalletTracker::Changes, CorrectionFault> PalletTracker::correct(const PalletCorrection& correction) {
-  const auto carried = std::find_if(carried_.begin(), carried_.end(),
-                                    [&](const CarriedPallet& pallet) { return pallet.id == correction.id; });
-  const bool is_carried = carried != carried_.end();
-  if (const auto fault = lodestar::correct(ledger_, params_.zones, correction, is_carried)) return *fault;
-  if (is_carried && !correction.same_as.empty()) carried->id = correction.same_as;
+  if (const auto fault = lodestar::correct(ledger_, params_.zones, correction)) return *fault;
+  if (!correction.same_as.empty()) rename_carried(correction.id, correction.same_as);
   return ledger_.take();
+}
+
+void PalletTracker::carry(const std::vector<CarriedPallet>& carried) {
+  carried_ = carried;
+  std::set<std::string> ids;
+  for (const CarriedPallet& pallet : carried) ids.insert(pallet.id);
+  ledger_.set_carried(ids);
+}
+
+void PalletTracker::rename_carried(const std::string& id, const std::string& same) {
+  std::vector<CarriedPallet> carried = carried_;
+  const auto is_same = [&](const CarriedPallet& pallet) { return pallet.id == same; };
+  if (ledger_.map().carries(id)) carried.erase(std::remove_if(carried.begin(), carried.end(), is_same), carried.end());
+  for (CarriedPallet& pallet : carried)
+    if (pallet.id == id) pallet.id = same;
+  carry(carried);
 }
 
 std::vector<Pallet> PalletTracker::now() const {
@@ -167,7 +181,7 @@ void PalletTracker::pick(const LoadChange& change) {
   std::vector<std::string> candidates = identity.candidates;
   if (identity.pallet != nullptr) {
     pallet = *identity.pallet;
-    if (label.empty()) candidates = pallets().find(pallet.id)->candidates;
+    candidates = pallets().find(pallet.id)->candidates;
   } else {
     pallet.id = new_id_();
     pallet.type = params_.sizes.front().type;
@@ -184,7 +198,7 @@ void PalletTracker::pick(const LoadChange& change) {
     put_anywhere(pallet);
   }
   ledger_.write(PalletChangeKind::kPick, pallet, change.stamp, candidates);
-  carried_ = {carried};
+  carry({carried});
   if (at) pick_riders(pose_of(pallet), pallet.type, change, *at);
 
   for (const std::string& candidate : identity.candidates)
@@ -197,22 +211,23 @@ void PalletTracker::pick(const LoadChange& change) {
 void PalletTracker::pick_riders(const PalletPose& below, const std::string& type, const LoadChange& change,
                                 const Moment& at) {
   std::vector<PalletChange> riders;
-  for (const Pallet* rider : pallets().on_top_of(below, type))
-    if (rider->id != carried_.front().id) riders.push_back(*pallets().find(rider->id));
+  for (const Pallet* rider : pallets().on_top_of(below, type)) riders.push_back(*pallets().find(rider->id));
+  std::vector<CarriedPallet> carried = carried_;
   for (PalletChange& rider : riders) {
     Pallet& pallet = rider.pallet;
     const PalletPose stood = pose_of(pallet);
-    const CarriedPallet carried{pallet.id, fitted_seat(at.fork, stacked_seat(at.fork, stood), stood)};
+    carried.push_back({pallet.id, fitted_seat(at.fork, stacked_seat(at.fork, stood), stood)});
     if (pallet.state == PalletState::kStanding) pallet.state = PalletState::kOnFork;
     pallet.changed = change.stamp;
     ledger_.write(PalletChangeKind::kPick, pallet, change.stamp, rider.candidates);
-    carried_.push_back(carried);
   }
+  carry(carried);
 }
 
 void PalletTracker::drop(const LoadChange& change) {
   const auto at = moment(change);
-  const std::vector<CarriedPallet> dropped = std::exchange(carried_, {});
+  const std::vector<CarriedPallet> dropped = carried_;
+  carry({});
   for (const CarriedPallet& pallet : dropped) set_down(pallet, change.stamp, at);
   if (!at) return;
   for (const CarriedPallet& carried : dropped) {
@@ -257,8 +272,7 @@ void PalletTracker::read_late(const LoadSample& sample) {
   if (const PalletChange* owner = pallets().with_sscc(sample.label)) {
     const std::string id = owner->pallet.id;
     ledger_.merge(last.pallet.id, id, PalletState::kOnFork, sample.stamp, reason);
-    carried_.front().id = id;
-    return;
+    return rename_carried(last.pallet.id, id);
   }
   Pallet pallet = last.pallet;
   pallet.sscc = sample.label;

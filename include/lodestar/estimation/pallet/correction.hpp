@@ -26,7 +26,7 @@ struct PalletCorrection {
 /// Why a correction was not taken: nothing of it was.
 enum class CorrectionFault {
   kUnknownPallet,  ///< no pallet has `id`
-  kUnknownSame,    ///< no other pallet has `same_as`, or that one is on the fork
+  kUnknownSame,    ///< no other pallet has `same_as`, or the fork carries that one and not this
   kSscc,           ///< not 18 digits with a right check digit
   kSsccTaken,      ///< another pallet has this label: say `same_as`
   kType,           ///< the vehicle file has no such size
@@ -35,8 +35,7 @@ enum class CorrectionFault {
 const char* name(CorrectionFault fault);
 
 /// Writes the correction into the ledger, or says why not.
-/// @param carried the fork carries the pallet
 std::optional<CorrectionFault> correct(PalletLedger& ledger, const std::vector<Zone>& zones,
-                                       const PalletCorrection& correction, bool carried);
+                                       const PalletCorrection& correction);
 
 }  // namespace lodestar

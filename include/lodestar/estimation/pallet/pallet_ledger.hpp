@@ -19,6 +19,7 @@ class PalletLedger {
   void restore(const Changes& latest);
 
   const PalletMap& map() const { return map_; }
+  void set_carried(const std::set<std::string>& ids) { map_.set_carried(ids); }
   /// What was written since the last call.
   Changes take();
 

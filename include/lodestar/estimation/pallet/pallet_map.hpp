@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ class PalletMap {
 
   void set(const PalletChange& change) { latest_[change.pallet.id] = change; }
   void erase(const std::string& id) { latest_.erase(id); }
+  /// What the fork carries, whatever state it is told in.
+  void set_carried(const std::set<std::string>& ids) { carried_ = ids; }
+  bool carries(const std::string& id) const { return carried_.count(id) > 0; }
   /// Null when there is none.
   const PalletChange* find(const std::string& id) const;
   const PalletChange* with_sscc(const std::string& sscc) const;
@@ -44,6 +48,7 @@ class PalletMap {
 
   std::vector<PalletSize> sizes_;
   std::map<std::string, PalletChange> latest_;
+  std::set<std::string> carried_;
 };
 
 }  // namespace lodestar

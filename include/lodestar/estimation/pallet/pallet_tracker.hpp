@@ -91,6 +91,8 @@ class PalletTracker {
   void set_down(const CarriedPallet& carried, Stamp stamp, const std::optional<Moment>& at);
   void doubt_in_the_way(const Pallet& pallet, Stamp stamp, const std::string& reason);
   void read_late(const LoadSample& sample);
+  void carry(const std::vector<CarriedPallet>& carried);
+  void rename_carried(const std::string& id, const std::string& same);
 
   PalletTrackerParams params_;
   std::function<std::string()> new_id_;

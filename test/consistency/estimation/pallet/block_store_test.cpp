@@ -44,7 +44,9 @@ TEST(BlockStore, the_covariance_of_the_set_down_pose_is_honest) {
 /// A truck that hardly knows where it is (0.3 m, 2 deg) asks, and does not guess.
 TEST(BlockStore, a_lost_truck_asks) {
   BlockStoreParams params;
-  params.covariances = {400 * test::usual_covariance()};
+  Matrix6 lost = test::usual_covariance();
+  for (const int axis : {0, 1, 5}) lost(axis, axis) *= 400;
+  params.covariances = {lost};
   params.label_probability = 0;
   params.stack = 1;
   const BlockStoreTally tally = BlockStore(params, 3).run(200);

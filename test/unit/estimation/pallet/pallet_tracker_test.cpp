@@ -77,6 +77,8 @@ TEST(PalletTracker, asks_where_two_may_be_meant_and_takes_the_answer) {
   EXPECT_EQ(changes[1].kind, PalletChangeKind::kCorrection);
   EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain);
   EXPECT_EQ(truck.pallet("id2").state, PalletState::kUncertain);
+  for (const Pallet* pallet : truck.tracker.pallets().standing())
+    EXPECT_NE(pallet->id, "id3") << "what is on the fork stands nowhere, whatever it is";
   truck.set_sigma(0.01);
   truck.stand(50, 0);
   EXPECT_EQ(truck.lower().at(0).pallet.state, PalletState::kUncertain) << "setting it down answers nothing";
