@@ -19,7 +19,7 @@ namespace po = boost::program_options;
 constexpr char kUsage[] =
     "accuracy - the localization against the truth of a simulated scenario, over several seeds\n"
     "\n"
-    "Usage: accuracy --scenario S.yaml [--seeds N] [--duration T]\n"
+    "Usage: accuracy --scenario S.yaml [--vehicle V.yaml] [--seeds N] [--duration T]\n"
     "\n"
     "Examples:\n"
     "  accuracy --scenario config/scenarios/drive.yaml --seeds 10\n"
@@ -27,7 +27,7 @@ constexpr char kUsage[] =
     "\n"
     "Each seed draws its own noise, floor, survey and calibration errors. `bound` is the Cramer-Rao bound of one fix "
     "for the\n"
-    "noise that the line is told of (pixel, lens, survey, mount, gravity: the vehicle file's defaults); a scenario "
+    "noise that the line is told of (pixel, lens, survey, mount, gravity: the vehicle file); a scenario "
     "with smaller\n"
     "errors than that lies below it. The filter may lie below it too, for it uses more than one instant.\n";
 
@@ -74,21 +74,24 @@ struct Run {
   }
 };
 
-Run run(const sim::Scenario& scenario, ProgressBar& bar, double done, double share) {
+Run run(const sim::Scenario& scenario, const Vehicle& vehicle, ProgressBar& bar, double done, double share) {
   Run result;
-  sim::run_line(scenario, [&](const sim::LineStep& step) {
-    bar.show(done + share * step.time_s / *scenario.duration_s);
-    const auto& outcome = step.outcome;
-    if (outcome.fix) {
-      result.fix.add(*outcome.fix, step.T_map_base_true);
-      result.bound_m2 += outcome.fix->covariance.topLeftCorner<2, 2>().trace();
-    }
-    if (outcome.estimate) {
-      (step.standing ? result.standing : result.moving).add(*outcome.estimate, step.T_map_base_true);
-      ++result.estimates;
-    }
-    if (result.estimates > 0) ++result.frames;
-  });
+  sim::run_line(
+      scenario,
+      [&](const sim::LineStep& step) {
+        bar.show(done + share * step.time_s / *scenario.duration_s);
+        const auto& outcome = step.outcome;
+        if (outcome.fix) {
+          result.fix.add(*outcome.fix, step.T_map_base_true);
+          result.bound_m2 += outcome.fix->covariance.topLeftCorner<2, 2>().trace();
+        }
+        if (outcome.estimate) {
+          (step.standing ? result.standing : result.moving).add(*outcome.estimate, step.T_map_base_true);
+          ++result.estimates;
+        }
+        if (result.estimates > 0) ++result.frames;
+      },
+      vehicle);
   return result;
 }
 
@@ -118,6 +121,8 @@ int accuracy(const po::variables_map& options) {
   sim::Scenario scenario = value_or_throw(sim::load_scenario(path));
   if (options.count("duration")) scenario.duration_s = duration_s(options);
   if (!scenario.duration_s) throw UserError(path + ": has no end; give --duration in seconds.");
+  const Vehicle vehicle =
+      options.count("vehicle") ? value_or_throw(load_vehicle(options["vehicle"].as<std::string>())) : Vehicle();
   const int seeds = options["seeds"].as<int>();
   if (seeds < 1) throw UserError("--seeds is " + std::to_string(seeds) + ", it has to be 1 or more.");
 
@@ -130,7 +135,7 @@ int accuracy(const po::variables_map& options) {
     Run one;
     {
       ProgressBar bar("seed " + std::to_string(i + 1));
-      one = run(scenario, bar, static_cast<double>(i) / seeds, 1.0 / seeds);
+      one = run(scenario, vehicle, bar, static_cast<double>(i) / seeds, 1.0 / seeds);
     }
     print(std::to_string(i + 1), one);
     total.add(one);
@@ -146,6 +151,7 @@ int main(int argc, char** argv) {
   namespace po = boost::program_options;
   po::options_description options("Options");
   options.add_options()("scenario", po::value<std::string>()->required(), "scenario file (YAML)")(
+      "vehicle", po::value<std::string>(), "vehicle file (YAML): what the sensors' data sheets say")(
       "seeds", po::value<int>()->default_value(5), "how many runs, seeds 1 to N")(
       "duration", po::value<double>(), "seconds of each run; default: the scenario's");
   return lodestar::run_tool(argc, argv, lodestar::kUsage, options, lodestar::accuracy);

@@ -43,7 +43,8 @@ RecordingWriterParams writer_params(const sim::Scenario& scenario, const std::st
   params.tone_table_hz = scenario.site.tone_table_hz;
   params.mounts = {{params.frames.base, params.frames.camera, scenario.T_base_camera},
                    {params.frames.base, params.frames.imu, scenario.imu.T_base_imu},
-                   {params.frames.base, params.frames.ir_array, scenario.ir.T_base_ir}};
+                   {params.frames.base, params.frames.ir_array, scenario.ir.T_base_ir},
+                   {params.frames.base, params.frames.fork, scenario.T_base_fork}};
   if (compression == "none")
     params.compression = BagCompression::kNone;
   else if (compression == "bz2")
@@ -75,6 +76,7 @@ class BagSink {
   void put(Stamp received, const sim::TrueCamera& camera) {
     writer_.write(received, TruthCameraPose{camera.stamp, camera.T_map_camera});
   }
+  void put(Stamp received, const sim::TruePallets& truth) { writer_.write(received, truth.pallets, truth.stamp); }
   template <class Sample>
   void put(Stamp received, const Sample& sample) {
     writer_.write(received, sample);

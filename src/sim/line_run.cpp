@@ -5,8 +5,8 @@
 
 namespace lodestar::sim {
 
-LocalizationLine make_line(const Scenario& scenario) {
-  LocalizationLine line(scenario.site, line_params(scenario.site, Vehicle(), scenario.camera.rate_hz));
+LocalizationLine make_line(const Scenario& scenario, const Vehicle& vehicle) {
+  LocalizationLine line(scenario.site, line_params(scenario.site, vehicle, scenario.camera.rate_hz));
   line.set_camera({CameraModel::create(scenario.camera.intrinsics).value(), scenario.T_base_camera});
   line.set_imu(scenario.imu.T_base_imu.translation());
   return line;
@@ -23,11 +23,11 @@ std::optional<LocalizationLine::Outcome> feed(LocalizationLine& line, const Even
   return std::move(outcome).value();
 }
 
-void run_line(const Scenario& scenario, const std::function<void(const LineStep&)>& visit) {
+void run_line(const Scenario& scenario, const std::function<void(const LineStep&)>& visit, const Vehicle& vehicle) {
   constexpr double kStanding_m_s = 0.05;
   if (!scenario.has_camera) throw std::invalid_argument(scenario.name + ": the scenario has no camera; give it one");
   Simulation simulation(scenario);
-  LocalizationLine line = make_line(scenario);
+  LocalizationLine line = make_line(scenario, vehicle);
   while (const auto event = simulation.next()) {
     auto outcome = feed(line, *event);
     if (!outcome) continue;

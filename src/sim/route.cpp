@@ -73,7 +73,9 @@ void Route::plan() {
     nodes_.push_back({time, stations[i], speed[i]});
     for (std::size_t w = 0; w < params_.waypoints.size(); ++w)
       if (params_.waypoints[w].stop_s > 0 && path_->station_m(w) == stations[i]) {
-        time += params_.waypoints[w].stop_s;
+        const RouteParams::Waypoint& waypoint = params_.waypoints[w];
+        stops_.push_back({time, time + waypoint.stop_s, waypoint.load, waypoint.load_z_m});
+        time += waypoint.stop_s;
         nodes_.push_back({time, stations[i], 0});
       }
   }

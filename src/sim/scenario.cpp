@@ -11,7 +11,7 @@ namespace {
 const std::vector<YamlKey> kFileKeys = {{"scenario", true}, {"camera", false}, {"fixes", false},    {"beacons", false},
                                         {"ir", false},      {"imu", false},    {"odometry", false}, {"lamps", false},
                                         {"walls", false},   {"boxes", false},  {"floor", false},    {"sway", false},
-                                        {"route", true},    {"errors", false}};
+                                        {"route", true},    {"errors", false}, {"loads", false}};
 const std::vector<YamlKey> kScenarioKeys = {{"name", true},          {"site", true},     {"seed", false},
                                             {"duration_s", false},   {"start_s", false}, {"mains_hz", false},
                                             {"truth_rate_hz", false}};

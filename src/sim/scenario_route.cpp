@@ -14,11 +14,22 @@ const std::vector<YamlKey> kRouteKeys = {{"waypoints", false},
                                          {"poses", false},
                                          {"grid", false},
                                          {"dwell_s", false}};
-const std::vector<YamlKey> kWaypointKeys = {
-    {"position_m", true}, {"speed_m_s", false}, {"corner_radius_m", false}, {"stop_s", false}};
+const std::vector<YamlKey> kWaypointKeys = {{"position_m", true}, {"speed_m_s", false}, {"corner_radius_m", false},
+                                            {"stop_s", false},    {"load", false},      {"load_z_m", false}};
 const std::vector<YamlKey> kPoseKeys = {{"position_m", true}, {"heading_deg", false}};
 const std::vector<YamlKey> kGridKeys = {
     {"from_m", true}, {"pitch_m", true}, {"columns", true}, {"rows", true}, {"heading_deg", false}};
+
+void read_load(const Section& section, RouteParams::Waypoint& waypoint) {
+  section.number("load_z_m", within(-1, 20), waypoint.load_z_m);
+  const auto load = section.map().text("load");
+  if (!load) return;
+  if (*load != "take" && *load != "leave")
+    return section.map().fault("load", "is " + quote(*load) + ": give take or leave");
+  if (waypoint.stop_s < 2)
+    return section.map().fault("load", "needs a stop_s of 2 or more: a load is not moved while driving by");
+  waypoint.load = *load == "take" ? LoadMove::kTake : LoadMove::kLeave;
+}
 
 void read_waypoint(const Section& section, RouteParams& route) {
   RouteParams::Waypoint waypoint;
@@ -26,6 +37,7 @@ void read_waypoint(const Section& section, RouteParams& route) {
   section.number("speed_m_s", above(0, 20), waypoint.speed_m_s);
   section.number("corner_radius_m", within(0, 1000), waypoint.corner_radius_m);
   section.number("stop_s", within(0, 1e6), waypoint.stop_s);
+  read_load(section, waypoint);
   route.waypoints.push_back(waypoint);
 }
 

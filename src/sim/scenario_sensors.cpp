@@ -56,6 +56,9 @@ const std::vector<YamlKey> kOdometryKeys = {{"enabled", false},
                                             {"velocity_noise_m_s", false},
                                             {"yaw_rate_noise_deg_s", false}};
 
+const std::vector<YamlKey> kLoadKeys = {{"mount", false},          {"rate_hz", false},
+                                        {"height_sigma_m", false}, {"seat_sigma_m", false},
+                                        {"seat_sigma_deg", false}, {"label_probability", false}};
 const std::vector<YamlKey> kFixKeys = {{"rate_hz", false},   {"position_sigma_m", false},    {"yaw_sigma_deg", false},
                                        {"latency_s", false}, {"outlier_probability", false}, {"outlier_m", false},
                                        {"blackouts", false}};
@@ -201,6 +204,16 @@ void read_fixes(const Section& section, Scenario& scenario) {
   scenario.fixes = fixes;
 }
 
+void read_loads(const Section& section, Scenario& scenario) {
+  LoadParams& loads = scenario.loads.emplace();
+  section.mount("mount", scenario.T_base_fork);
+  section.number("rate_hz", within(2, 1000), loads.rate_hz);
+  section.number("height_sigma_m", within(0, 1), loads.height_sigma_m);
+  section.number("seat_sigma_m", within(0, 1), loads.seat_sigma_m);
+  section.degrees("seat_sigma_deg", within(0, 45), loads.seat_sigma_rad);
+  section.number("label_probability", within(0, 1), loads.label_probability);
+}
+
 }  // namespace
 
 void read_sensors(const Section& file, Scenario& scenario) {
@@ -212,6 +225,7 @@ void read_sensors(const Section& file, Scenario& scenario) {
   read_ir(file.section("ir", kIrKeys), scenario);
   read_imu(file.section("imu", kImuKeys), scenario);
   read_odometry(file.section("odometry", kOdometryKeys), scenario);
+  if (file.map().has("loads")) read_loads(file.section("loads", kLoadKeys), scenario);
 }
 
 }  // namespace lodestar::sim

@@ -35,22 +35,8 @@ void read_beacons(const Section& section, BeaconLightParams& light) {
 
 void read_lamp(const Section& section, Scenario& scenario) {
   LampParams lamp;
-  std::size_t i = 0;
-  for (const YAML::Node& node : section.map().list("path_m")) {
-    const std::string where = section.map().path("path_m") + "[" + std::to_string(i++) + "]";
-    std::string why = "give three numbers";
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    bool good = node.IsSequence() && node.size() == 3;
-    for (std::size_t axis = 0; good && axis < 3; ++axis) {
-      const auto value = parse_number(node[axis], why);
-      good = value.has_value();
-      if (good) point[static_cast<int>(axis)] = *value;
-    }
-    if (!good) section.faults().add(line_of(node, section.map().line("path_m")), where + " is no position: " + why);
-    lamp.path_m.push_back(point);
-  }
-  if (section.map().has("path_m") && lamp.path_m.empty())
-    section.map().fault("path_m", "is empty: give at least one position, as [[2, 3, 6]]");
+  if (const auto points = section.map().points("path_m", 1, 1000, 3, within(-10000, 10000)))
+    lamp.path_m.assign(points->begin(), points->end());
   section.number("speed_m_s", within(0, 50), lamp.speed_m_s);
   Eigen::Vector3d tube;
   if (section.vector("tube_m", tube)) lamp.tube_m = tube;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kImuLatency_s = 0.001;
 constexpr double kOdometryLatency_s = 0.002;
+constexpr double kLoadLatency_s = 0.02;
 constexpr double kIrLatency_s = 0.001;  // after the frame's last bit
 
 Eigen::Vector3d draw(Random& random, double sigma) {
@@ -83,6 +84,9 @@ void Simulation::make_sensors() {
     imu_ = std::make_unique<Imu>(imu, scenario_.seed);
   }
   if (scenario_.has_odometry) odometry_ = std::make_unique<WheelOdometry>(scenario_.odometry, scenario_.seed);
+  if (scenario_.loads)
+    loads_ = std::make_unique<LoadHandling>(*scenario_.loads, truck_->route(), scenario_.T_base_fork,
+                                            scenario_.site.zones, scenario_.seed);
   if (scenario_.has_ir) ir_ = std::make_unique<IrReceiver>(scenario_.ir, scenario_.seed);
 }
 
@@ -96,6 +100,7 @@ double Simulation::next_due_s() const {
   if (fixes_) next = std::min(next, due(fix_count_, scenario_.fixes->rate_hz));
   if (imu_) next = std::min(next, due(imu_count_, scenario_.imu.rate_hz));
   if (odometry_) next = std::min(next, due(odometry_count_, scenario_.odometry.rate_hz));
+  if (loads_) next = std::min(next, due(load_count_, scenario_.loads->rate_hz));
   if (ir_) next = std::min(next, static_cast<double>(slot_count_) * scenario_.site.link.slot_s);
   return next;
 }
@@ -116,6 +121,7 @@ void Simulation::sample_next() {
   }
   if (ir_ && t == static_cast<double>(slot_count_) * scenario_.site.link.slot_s) hear_slot();
   if (fixes_ && t == due(fix_count_, scenario_.fixes->rate_hz)) take_fix();
+  if (loads_ && t == due(load_count_, scenario_.loads->rate_hz)) take_load();
   if (camera_ && t == camera_->next_due_s()) take_image();
 }
 
@@ -136,6 +142,13 @@ void Simulation::take_image() {
 void Simulation::take_fix() {
   const double t = due(fix_count_++, scenario_.fixes->rate_hz);
   if (auto reading = fixes_->sample(*truck_, t, stamp(t))) push(t + reading->latency_s, std::move(reading->fix));
+}
+
+void Simulation::take_load() {
+  const double t = due(load_count_++, scenario_.loads->rate_hz);
+  const LoadSample sample = loads_->sample(*truck_, t, stamp(t));
+  if (loads_->moved()) push(t, TruePallets{stamp(t), loads_->pallets()});
+  push(t + kLoadLatency_s, sample);
 }
 
 void Simulation::hear_slot() {

@@ -23,6 +23,7 @@ struct Write {
   void operator()(const sim::TrueCamera& truth) const {
     writer.write(received, TruthCameraPose{truth.stamp, truth.T_map_camera});
   }
+  void operator()(const sim::TruePallets& truth) const { writer.write(received, truth.pallets, truth.stamp); }
   template <class Sample>
   void operator()(const Sample& sample) const {
     writer.write(received, sample);

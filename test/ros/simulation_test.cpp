@@ -42,7 +42,7 @@ TEST(SimulationNodelet, SpeaksAsAVehicleDoesAndStopsWithItsScenario) {
   EXPECT_EQ(odometry.last().child_frame_id, "base_link");
   EXPECT_EQ(truth.last().header.frame_id, "map");
   EXPECT_FALSE(clock.empty());
-  for (const char* frame : {"camera_optical_frame", "imu_link", "ir_array", "odom"})
+  for (const char* frame : {"camera_optical_frame", "imu_link", "ir_array", "fork", "odom"})
     EXPECT_TRUE(wait_for([&] { return tf.canTransform("base_link", frame, ros::Time(0)); })) << frame;
   EXPECT_TRUE(wait_for([&] { return diagnostics.value("simulation", "scenario") == "rostest"; }));
   // Eight seconds, then it says that it is over.

@@ -63,7 +63,7 @@ inline NeesScenario white_noise() {
   params.bearing_common_share = params.bearing_correlation_s = 0;
   params.odometry_correlation_s = 1e-6;
   params.lens_drift_rad_sqrt_m = params.lens_scale_drift_sqrt_m = params.lens_scale_sigma = 1e-6;
-  params.sideslip_s2 = 0;
+  params.slip_s2 = params.sideslip_s2 = 0;
   params.vertical_velocity_sigma_m_s = 0.01;
   return scenario;
 }

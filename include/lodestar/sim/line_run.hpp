@@ -8,8 +8,9 @@
 
 namespace lodestar::sim {
 
-/// The optical line as a truck of this scenario would have it: with the site, calibration and mounts that it is told.
-LocalizationLine make_line(const Scenario& scenario);
+/// The optical line as a truck of this scenario would have it: with the site, calibration and mounts that it is told,
+/// and with the vehicle's sigmas.
+LocalizationLine make_line(const Scenario& scenario, const Vehicle& vehicle = {});
 
 /// Hands one event to the line; truth is left out. What an image led to, if it was one and was not dropped.
 std::optional<LocalizationLine::Outcome> feed(LocalizationLine& line, const Event& event);
@@ -23,6 +24,6 @@ struct LineStep {
 };
 
 /// Runs the line over a whole scenario, in the order of reception, and shows each image's outcome.
-void run_line(const Scenario& scenario, const std::function<void(const LineStep&)>& visit);
+void run_line(const Scenario& scenario, const std::function<void(const LineStep&)>& visit, const Vehicle& vehicle = {});
 
 }  // namespace lodestar::sim

@@ -8,6 +8,9 @@
 
 namespace lodestar::sim {
 
+/// What the fork does at a stop (LoadHandling).
+enum class LoadMove { kNone, kTake, kLeave };
+
 /// Where the truck is to be, as a scenario says it: waypoints to drive along, or poses to be set down on.
 struct RouteParams {
   struct Waypoint {
@@ -15,6 +18,8 @@ struct RouteParams {
     double speed_m_s = 1;  ///< on the way from here to the next
     double corner_radius_m = 0;
     double stop_s = 0;  ///< rests here, 0: drives through
+    LoadMove load = LoadMove::kNone;
+    double load_z_m = 0;  ///< of the pallet's underside, above the floor below the truck
   };
   struct Pose {
     Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
@@ -41,6 +46,13 @@ class Route {
     double yaw_rate_rad_s = 0, lateral_acceleration_m_s2 = 0;  ///< to the left
   };
 
+  /// Rest at a waypoint; times are those of the first round.
+  struct Stop {
+    double from_s, to_s;
+    LoadMove load;
+    double load_z_m;
+  };
+
   /// Throws std::invalid_argument with what is wrong.
   explicit Route(const RouteParams& params);
 
@@ -49,6 +61,8 @@ class Route {
   bool jumps() const { return !path_; }
   /// Until the last stop is over; of one round when it repeats; of all poses.
   double duration_s() const;
+  bool repeats() const { return params_.repeat; }
+  const std::vector<Stop>& stops() const { return stops_; }
 
  private:
   struct Node {
@@ -65,6 +79,7 @@ class Route {
   RouteParams params_;
   std::shared_ptr<const Path> path_;
   std::vector<Node> nodes_;
+  std::vector<Stop> stops_;
 };
 
 }  // namespace lodestar::sim

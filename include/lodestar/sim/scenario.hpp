@@ -16,6 +16,7 @@
 #include "lodestar/sim/imu.hpp"
 #include "lodestar/sim/ir_receiver.hpp"
 #include "lodestar/sim/lamp.hpp"
+#include "lodestar/sim/load_handling.hpp"
 #include "lodestar/sim/route.hpp"
 #include "lodestar/sim/sway.hpp"
 #include "lodestar/sim/wheel_odometry.hpp"
@@ -46,12 +47,14 @@ struct Scenario {
 
   CameraParams camera;
   RigidTransform T_base_camera = RigidTransform::Identity();
+  RigidTransform T_base_fork{Eigen::Translation3d(0.875, 0, 0.08)};  ///< at its lowest, x along the tines
   BeaconLightParams beacons;
   IrReceiverParams ir;
   bool has_camera = true, has_ir = true, has_imu = true, has_odometry = true;
   ImuParams imu;
   WheelOdometryParams odometry;
   std::optional<FixSensorParams> fixes;  ///< beside the camera, or instead of it
+  std::optional<LoadParams> loads;       ///< where the truck has a load sensor
   double truth_rate_hz = 100;
   std::uint32_t first_superframe = 1000;
 

@@ -13,6 +13,7 @@
 #include "lodestar/sim/fix_sensor.hpp"
 #include "lodestar/sim/imu.hpp"
 #include "lodestar/sim/ir_receiver.hpp"
+#include "lodestar/sim/load_handling.hpp"
 #include "lodestar/sim/scenario.hpp"
 #include "lodestar/sim/truck.hpp"
 #include "lodestar/sim/wheel_odometry.hpp"
@@ -31,10 +32,16 @@ struct TrueCamera {
   RigidTransform T_map_camera = RigidTransform::Identity();
 };
 
+/// All pallets on the site, told when one was taken or left (/ground_truth/pallets).
+struct TruePallets {
+  Stamp stamp;
+  std::vector<Pallet> pallets;
+};
+
 /// One sample and when it reaches the computer.
 struct Event {
   Stamp received;
-  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix> data;
+  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix, LoadSample, TruePallets> data;
 };
 
 /// A whole run of a scenario: what the sensors say, in the order of reception. The same seed gives the same run, bit by
@@ -73,6 +80,7 @@ class Simulation {
   void take_image();
   void take_fix();
   void hear_slot();
+  void take_load();
 
   Scenario scenario_;
   std::vector<Beacon> true_beacons_;
@@ -85,7 +93,8 @@ class Simulation {
   std::unique_ptr<WheelOdometry> odometry_;
   std::unique_ptr<IrReceiver> ir_;
   std::unique_ptr<FixSensor> fixes_;
-  std::uint64_t imu_count_ = 0, odometry_count_ = 0, slot_count_ = 0, fix_count_ = 0, truth_count_ = 0;
+  std::unique_ptr<LoadHandling> loads_;
+  std::uint64_t imu_count_ = 0, odometry_count_ = 0, slot_count_ = 0, fix_count_ = 0, load_count_ = 0, truth_count_ = 0;
   std::uint64_t sequence_ = 0;
   std::priority_queue<std::pair<Event, std::uint64_t>, std::vector<std::pair<Event, std::uint64_t>>, Later> pending_;
 };

@@ -10,12 +10,14 @@
 #include "lodestar/base/measurement/ir_frame.hpp"
 #include "lodestar/base/yaml/yaml_document.hpp"
 #include "lodestar/base/yaml/yaml_map.hpp"
+#include "zone_section.hpp"
 
 namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {{"site", true}, {"link", false}, {"tone_table_hz", true}, {"beacons", false}};
+const std::vector<YamlKey> kFileKeys = {
+    {"site", true}, {"link", false}, {"tone_table_hz", true}, {"beacons", false}, {"zones", false}};
 const std::vector<YamlKey> kSiteKeys = {{"name", true}, {"frame_id", false}};
 const std::vector<YamlKey> kLinkKeys = {
     {"bit_rate_bps", false}, {"slot_s", false}, {"slot_count", false}, {"key_file", false}};
@@ -170,16 +172,17 @@ std::vector<Beacon> read_beacons(const YamlMap& file, const Site& site, FaultLog
   return beacons;
 }
 
-Site read_frame(const YamlMap& file, const std::string& file_name) {
+Site read_frame(const YamlMap& file, FaultLog& faults) {
   Site site;
   read_identity(file.section("site", kSiteKeys), site);
-  site.link = read_link(file.section("link", kLinkKeys), file_name);
+  site.link = read_link(file.section("link", kLinkKeys), faults.file());
+  site.zones = read_zones(file, faults);
   return site;
 }
 
 Site read_site(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
-  Site site = read_frame(file, faults.file());
+  Site site = read_frame(file, faults);
   read_tone_table(file, faults, site);
   site.beacons = read_beacons(file, site, faults);
   return site;
@@ -187,7 +190,7 @@ Site read_site(const YAML::Node& root, FaultLog& faults) {
 
 Site read_survey(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, unplanned(kFileKeys), faults);
-  Site site = read_frame(file, faults.file());
+  Site site = read_frame(file, faults);
   for (const BeaconDraft& draft : read_drafts(file, unplanned(kBeaconKeys), faults, read_place))
     if (draft.id && draft.position_map)
       site.beacons.push_back({*draft.id, *draft.position_map, {}, 0, Waveform::kSine, draft.sigma_m});

@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "lodestar/base/common/angle.hpp"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/base/yaml/yaml_scalar.hpp"
 
@@ -31,6 +32,22 @@ std::string line(const Beacon& beacon, const std::vector<double>& tone_table_hz)
          ", sigma_m: " + print(beacon.sigma_m) + "}\n";
 }
 
+std::string line(const Zone& zone) {
+  std::string polygon;
+  for (const Eigen::Vector2d& corner : zone.polygon_map)
+    polygon += (polygon.empty() ? "" : ", ") + list({corner.x(), corner.y()});
+  std::string out = "  - {code: " + in_quotes(zone.code) +
+                    ", kind: " + (zone.kind == ZoneKind::kDock ? "dock" : "storage") + ", polygon_m: [" + polygon +
+                    "], z_m: " + list({zone.bottom_m, zone.top_m});
+  if (!zone.levels_m.empty()) out += ", levels_m: " + list(zone.levels_m);
+  if (const auto& grid = zone.grid)
+    out += ", places: {first_m: " + list({grid->first_m.x(), grid->first_m.y()}) +
+           ", pitch_m: " + list({grid->pitch_m.x(), grid->pitch_m.y()}) +
+           ", columns: " + std::to_string(grid->columns) + ", rows: " + std::to_string(grid->rows) +
+           ", yaw_deg: " + print(degrees(grid->yaw_rad)) + "}";
+  return out + "}\n";
+}
+
 }  // namespace
 
 std::string to_yaml(const Site& site) {
@@ -41,6 +58,8 @@ std::string to_yaml(const Site& site) {
       << "tone_table_hz: " << list(site.tone_table_hz) << "\n"
       << "beacons:" << (site.beacons.empty() ? " []" : "") << "\n";
   for (const Beacon& beacon : site.beacons) out << line(beacon, site.tone_table_hz);
+  if (!site.zones.empty()) out << "zones:\n";
+  for (const Zone& zone : site.zones) out << line(zone);
   return out.str();
 }
 

@@ -8,9 +8,12 @@ namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {
-    {"vehicle", false}, {"camera", false}, {"imu", false}, {"odometry", false}, {"infrared", false}};
+const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false}, {"imu", false},    {"odometry", false},
+                                        {"infrared", false}, {"fork", false},   {"pallets", false}};
 const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
+const std::vector<YamlKey> kForkKeys = {
+    {"mount", false}, {"height_sigma_m", false}, {"seat_sigma_m", false}, {"seat_sigma_deg", false}};
+const std::vector<YamlKey> kPalletKeys = {{"type", true}, {"length_m", true}, {"width_m", true}, {"deck_m", false}};
 const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
 const std::vector<YamlKey> kCameraKeys = {
     {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false},  {"window_frames", false},
@@ -77,6 +80,36 @@ void read_odometry(const YamlMap& map, Vehicle& vehicle) {
   read(map, "scale_sigma", within(0, 0.5), vehicle.odometry_scale_sigma);
 }
 
+void read_fork(const YamlMap& map, Vehicle& vehicle) {
+  vehicle.T_base_fork = read_mount(map);
+  read(map, "height_sigma_m", above(0, 1), vehicle.fork_height_sigma_m);
+  read(map, "seat_sigma_m", above(0, 1), vehicle.seat_sigma_m);
+  read_degrees(map, "seat_sigma_deg", above(0, 45), vehicle.seat_sigma_rad);
+}
+
+PalletSize read_pallet(const YamlMap& map) {
+  PalletSize pallet;
+  pallet.type = map.text("type").value_or("");
+  if (map.has("type") && pallet.type.empty()) map.fault("type", "is empty: give the kind of pallet a name");
+  read(map, "length_m", within(0.2, 10), pallet.size_m.x());
+  read(map, "width_m", within(0.2, 10), pallet.size_m.y());
+  read(map, "deck_m", within(0, 1), pallet.deck_m);
+  return pallet;
+}
+
+void read_pallets(const YamlMap& file, FaultLog& faults, Vehicle& vehicle) {
+  const std::vector<YAML::Node> nodes = file.list("pallets");
+  if (nodes.empty()) return;
+  vehicle.pallets.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const YamlMap map(nodes[i], "pallets[" + std::to_string(i) + "]", file.line("pallets"), kPalletKeys, faults);
+    const PalletSize pallet = read_pallet(map);
+    for (const PalletSize& other : vehicle.pallets)
+      if (other.type == pallet.type) map.fault("type", quote(pallet.type) + " is there twice: give each its own name");
+    vehicle.pallets.push_back(pallet);
+  }
+}
+
 Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
   Vehicle vehicle;
@@ -84,6 +117,8 @@ Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   read_camera(file.section("camera", kCameraKeys), vehicle);
   read_imu(file.section("imu", kImuKeys), vehicle);
   read_odometry(file.section("odometry", kOdometryKeys), vehicle);
+  read_fork(file.section("fork", kForkKeys), vehicle);
+  read_pallets(file, faults, vehicle);
   vehicle.has_ir_receiver = file.section("infrared", kInfraredKeys).boolean("receiver").value_or(true);
   return vehicle;
 }

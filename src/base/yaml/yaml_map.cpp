@@ -159,30 +159,59 @@ std::optional<bool> YamlMap::boolean(const std::string& key) const {
   return std::nullopt;
 }
 
-std::optional<std::vector<YamlMap::Number>> YamlMap::numbers(const std::string& key, std::size_t min_count,
-                                                             std::size_t max_count, const Limits& limits) const {
-  const auto it = values_.find(key);
-  if (it == values_.end()) return std::nullopt;
-  const YAML::Node& node = it->second.node;
+std::optional<std::vector<YamlMap::Number>> YamlMap::numbers(const YAML::Node& node, const std::string& path, int line,
+                                                             std::size_t min_count, std::size_t max_count,
+                                                             const Limits& limits) const {
   const std::string wanted = min_count == max_count ? std::to_string(min_count)
                                                     : std::to_string(min_count) + " to " + std::to_string(max_count);
   if (!node.IsSequence()) {
-    fault(key, "is " + quote(node) + ": give a list of " + wanted + (max_count == 1 ? " number" : " numbers"));
+    faults_->add(
+        line, path + " is " + quote(node) + ": give a list of " + wanted + (max_count == 1 ? " number" : " numbers"));
     return std::nullopt;
   }
   bool good = node.size() >= min_count && node.size() <= max_count;
-  if (!good) fault(key, "has " + std::to_string(node.size()) + " numbers: give " + wanted);
+  if (!good) faults_->add(line, path + " has " + std::to_string(node.size()) + " numbers: give " + wanted);
   std::vector<Number> numbers;
   for (std::size_t i = 0; i < std::min(node.size(), max_count); ++i) {
-    const int line = line_of(node[i], it->second.line);
-    const auto value = number(node[i], path(key) + "[" + std::to_string(i) + "]", line, limits);
+    const int line_of_item = line_of(node[i], line);
+    const auto value = number(node[i], path + "[" + std::to_string(i) + "]", line_of_item, limits);
     if (value)
-      numbers.push_back({*value, line});
+      numbers.push_back({*value, line_of_item});
     else
       good = false;
   }
   if (!good) return std::nullopt;
   return numbers;
+}
+
+std::optional<std::vector<YamlMap::Number>> YamlMap::numbers(const std::string& key, std::size_t min_count,
+                                                             std::size_t max_count, const Limits& limits) const {
+  const auto it = values_.find(key);
+  if (it == values_.end()) return std::nullopt;
+  return numbers(it->second.node, path(key), it->second.line, min_count, max_count, limits);
+}
+
+std::optional<std::vector<Eigen::VectorXd>> YamlMap::points(const std::string& key, std::size_t min_count,
+                                                            std::size_t max_count, std::size_t dimension,
+                                                            const Limits& limits) const {
+  if (!has(key)) return std::nullopt;
+  const std::vector<YAML::Node> nodes = list(key);
+  bool good = nodes.size() >= min_count && nodes.size() <= max_count;
+  if (!good)
+    fault(key, "has " + std::to_string(nodes.size()) + " points: give " + std::to_string(min_count) + " to " +
+                   std::to_string(max_count) + ", as [[2, 3], [4, 3]] has two");
+  std::vector<Eigen::VectorXd> points;
+  for (std::size_t i = 0; i < std::min(nodes.size(), max_count); ++i) {
+    const auto point = numbers(nodes[i], path(key) + "[" + std::to_string(i) + "]", line_of(nodes[i], line(key)),
+                               dimension, dimension, limits);
+    good = good && point;
+    if (!point) continue;
+    Eigen::VectorXd& added = points.emplace_back(point->size());
+    for (std::size_t axis = 0; axis < point->size(); ++axis)
+      added[static_cast<Eigen::Index>(axis)] = (*point)[axis].value;
+  }
+  if (!good) return std::nullopt;
+  return points;
 }
 
 std::vector<YAML::Node> YamlMap::list(const std::string& key) const {

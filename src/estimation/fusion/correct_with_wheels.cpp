@@ -5,6 +5,7 @@
 #include "lodestar/estimation/fusion/kalman_update.hpp"
 #include "lodestar/estimation/fusion/mm_standstill.hpp"
 #include "lodestar/estimation/fusion/mm_wheels.hpp"
+#include "lodestar/estimation/fusion/propagation.hpp"
 
 namespace lodestar::fusion {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 constexpr double kStandFor_s = 0.2;     ///< a truck stands when all has been quiet for so long
 constexpr double kLongestSlip_s = 2.0;  ///< then it is the state that is wrong
 constexpr double kWidenVelocity_m_s = 0.3;
-
-bool imu_heard(const FilterState& state, const PoseFilterParams& params) {
-  return state.inputs.imu_stamp && seconds(state.stamp - *state.inputs.imu_stamp) <= params.imu_hold_s;
-}
 
 bool stands(const FilterState& state, const PoseFilterParams& params) {
   const Stamp quiet_since = state.stamp - from_seconds(kStandFor_s);
@@ -66,7 +63,9 @@ Tally correct_with_wheels(FilterState& state, const OdometrySample& sample, cons
       imu ? state.inputs.angular_velocity_rad_s
           : Eigen::Vector3d(state.gyro_bias + Eigen::Vector3d(0, 0, sample.yaw_rate_rad_s));
   if (!stands(state, params)) {
-    Innovation<3> wheels = wheels_innovation(state, sample, angular_velocity, rig, params);
+    const double turning = (angular_velocity - state.gyro_bias).z();
+    const Eigen::Vector2d acceleration(imu ? acceleration_along(state) : 0.0, sample.velocity_m_s.x() * turning);
+    Innovation<3> wheels = wheels_innovation(state, sample, angular_velocity, acceleration, rig, params);
     wheels.inflation = std::max(1.0, params.odometry_correlation_s / state.inputs.wheels_interval_s);
     return use(state, wheels, gates);
   }

@@ -19,7 +19,8 @@ Eigen::Vector3d velocity_base(const CoreState& x, const Eigen::Vector3d& measure
 }
 
 Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample,
-                                const Eigen::Vector3d& measured_angular_velocity_rad_s, const Rig& rig,
+                                const Eigen::Vector3d& measured_angular_velocity_rad_s,
+                                const Eigen::Vector2d& acceleration_m_s2, const Rig& rig,
                                 const PoseFilterParams& params) {
   const Eigen::Matrix3d R_base_map = x.q_map_base.conjugate().toRotationMatrix();
   const Eigen::Vector3d v = velocity_base(x, measured_angular_velocity_rad_s, rig);
@@ -34,13 +35,12 @@ Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample
   m.H.block<2, 1>(0, kWheelScale) = v.head<2>();
 
   const double speed = sample.velocity_m_s.norm();
-  const double across = speed * (measured_angular_velocity_rad_s - x.gyro_bias).z();
-  // Slip lasts as long as the turn, so it is no noise that the next samples average out.
+  // Sideslip lasts as long as the turn, so it is no noise that the next samples average out.
   const double lasting = std::max(1.0, kTurn_s / params.odometry_correlation_s);
-  const double sideslip_variance = lasting * std::pow(speed * params.sideslip_s2 * across, 2);
-  const double along = params.odometry_velocity_sigma_m_s;
-  const double up = params.vertical_velocity_sigma_m_s;
-  m.R.diagonal() << along * along, along * along + sideslip_variance, up * up;
+  const double slip = speed * params.slip_s2 * acceleration_m_s2.x();
+  const double sideslip = speed * params.sideslip_s2 * acceleration_m_s2.y();
+  const double noise = params.odometry_velocity_sigma_m_s, up = params.vertical_velocity_sigma_m_s;
+  m.R.diagonal() << noise * noise + slip * slip, noise * noise + lasting * sideslip * sideslip, up * up;
   return m;
 }
 

@@ -134,12 +134,20 @@ bool wheels_heard(const FilterState& state) {
   return state.inputs.wheels && seconds(state.stamp - state.inputs.wheels->stamp) < kWheelsHold_s;
 }
 
+bool imu_heard(const FilterState& state, const PoseFilterParams& params) {
+  return state.inputs.imu_stamp && seconds(state.stamp - *state.inputs.imu_stamp) <= params.imu_hold_s;
+}
+
 Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params) {
   const Inputs& in = state.inputs;
-  if (in.imu_stamp && seconds(state.stamp - *in.imu_stamp) <= params.imu_hold_s)
-    return in.angular_velocity_rad_s - state.gyro_bias;
+  if (imu_heard(state, params)) return in.angular_velocity_rad_s - state.gyro_bias;
   if (wheels_heard(state)) return {0, 0, in.wheels->yaw_rate_rad_s / (1.0 + state.yaw_rate_scale)};
   return Eigen::Vector3d::Zero();
+}
+
+double acceleration_along(const FilterState& state) {
+  const Eigen::Vector3d gravity_base = state.q_map_base.conjugate() * Eigen::Vector3d(0, 0, kGravity_m_s2);
+  return (state.inputs.specific_force_m_s2 - state.accelerometer_bias - gravity_base).x();
 }
 
 Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_rad_s,
@@ -235,7 +243,7 @@ void advance(FilterState& state, Stamp to, const ImuSample* next_imu, const Pose
 }
 
 void extrapolate(FilterState& state, Stamp to, const PoseFilterParams& params) {
-  const bool inertial = state.inputs.imu_stamp && seconds(state.stamp - *state.inputs.imu_stamp) <= params.imu_hold_s;
+  const bool inertial = imu_heard(state, params);
   const double wheels = wheels_heard(state) ? state.inputs.wheels->yaw_rate_rad_s : 0.0;
   const double yaw_rate =
       inertial ? (state.inputs.angular_velocity_rad_s - state.gyro_bias).z() * (1.0 + state.yaw_rate_scale) : wheels;

@@ -77,6 +77,27 @@ BaseJacobian base_jacobian(const FilterState& state, const Rig& rig) {
   return J;
 }
 
+namespace {
+
+/// Of base_link's velocity and angular velocity in its own axes, by velocity, rotation and gyro bias.
+Eigen::Matrix<double, 6, 6> twist_covariance(const FilterState& state, const Rig& rig, const PoseFilterParams& params) {
+  const Eigen::Matrix3d R_base_map = state.q_map_base.conjugate().toRotationMatrix();
+  const bool gyro = imu_heard(state, params);
+  Eigen::Matrix<double, 6, 9> J = Eigen::Matrix<double, 6, 9>::Zero();
+  J.topLeftCorner<3, 3>() = R_base_map;
+  J.block<3, 3>(0, 3) = R_base_map * skew(state.velocity);
+  if (gyro) {
+    J.topRightCorner<3, 3>() = -skew(rig.imu_position_base);
+    J.bottomRightCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+  }
+  Eigen::Matrix<double, 6, 6> C = J * state.P.block<9, 9>(kVelocity, kVelocity) * J.transpose();
+  const double rate_noise = gyro ? params.gyro_noise_rad_s : params.odometry_yaw_rate_sigma_rad_s;
+  C.diagonal().tail<3>().array() += rate_noise * rate_noise;
+  return C;
+}
+
+}  // namespace
+
 StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFilterParams& params) {
   const Eigen::Matrix3d R_map_base = state.q_map_base.toRotationMatrix();
   const Eigen::Vector3d lever_map = R_map_base * rig.imu_position_base;
@@ -87,6 +108,7 @@ StateEstimate as_estimate(const FilterState& state, const Rig& rig, const PoseFi
   out.angular_velocity_rad_s = angular_velocity(state, params);
   out.velocity_base_m_s = velocity_base(state, out.angular_velocity_rad_s + state.gyro_bias, rig);
 
+  out.twist_covariance = twist_covariance(state, rig, params);
   const BaseJacobian J = base_jacobian(state, rig);
   out.covariance = J * state.P.topLeftCorner<9, 9>() * J.transpose();
   return out;

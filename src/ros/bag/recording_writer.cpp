@@ -11,6 +11,7 @@
 #include "lodestar/ros/convert/imu.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
+#include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/convert/sightings.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
@@ -148,6 +149,15 @@ void RecordingWriter::write(Stamp received, const TruthPose& pose) {
 void RecordingWriter::write(Stamp received, const TruthCameraPose& pose) {
   impl_->write(received, impl_->topics().truth_camera_pose,
                pose_message(StampedPose{pose.stamp, pose.T_map_camera}, impl_->frames().map));
+}
+
+void RecordingWriter::write(Stamp received, const LoadSample& sample) {
+  impl_->write(received, impl_->topics().load, load_message(sample, impl_->frames().fork));
+}
+
+void RecordingWriter::write(Stamp received, const std::vector<Pallet>& true_pallets, Stamp stamp) {
+  impl_->write(received, impl_->topics().truth_pallets,
+               pallet_array_message(true_pallets, stamp, impl_->frames().map));
 }
 
 void RecordingWriter::write(Stamp received, const Announcement& announcement) {

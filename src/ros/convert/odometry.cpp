@@ -57,7 +57,8 @@ nav_msgs::Odometry odometry_message(const StateEstimate& estimate, const std::st
   twist.angular.x = estimate.angular_velocity_rad_s.x();
   twist.angular.y = estimate.angular_velocity_rad_s.y();
   twist.angular.z = estimate.angular_velocity_rad_s.z();
-  for (std::size_t i = 0; i < 6; ++i) message.twist.covariance[7 * i] = -1;
+  using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  Eigen::Map<RowMajor>(message.twist.covariance.data()) = estimate.twist_covariance;
   return message;
 }
 

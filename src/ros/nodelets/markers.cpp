@@ -7,6 +7,7 @@
 
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/ros/convert/transform.hpp"
+#include "marker_parts.hpp"
 
 namespace lodestar {
 namespace {
@@ -16,41 +17,6 @@ using visualization_msgs::MarkerArray;
 
 constexpr double kMargin_m = 4.0;  // of the floor beyond the outermost beacons
 constexpr double kThickEach_m = 5.0;
-
-std_msgs::ColorRGBA color(double r, double g, double b, double a = 1.0) {
-  std_msgs::ColorRGBA c;
-  c.r = static_cast<float>(r);
-  c.g = static_cast<float>(g);
-  c.b = static_cast<float>(b);
-  c.a = static_cast<float>(a);
-  return c;
-}
-
-geometry_msgs::Point point(const Eigen::Vector3d& p) {
-  geometry_msgs::Point out;
-  out.x = p.x();
-  out.y = p.y();
-  out.z = p.z();
-  return out;
-}
-
-Marker marker(const std_msgs::Header& header, const std::string& ns, int id, int type, const std_msgs::ColorRGBA& c) {
-  Marker m;
-  m.header = header;
-  m.ns = ns;
-  m.id = id;
-  m.type = type;
-  m.action = Marker::ADD;
-  m.pose.orientation.w = 1;
-  m.color = c;
-  return m;
-}
-
-void set_scale(Marker& m, double x, double y, double z) {
-  m.scale.x = x;
-  m.scale.y = y;
-  m.scale.z = z;
-}
 
 Eigen::AlignedBox2d floor_bounds(const std::map<BeaconId, BeaconTable::Entry>& beacons) {
   Eigen::AlignedBox2d bounds;

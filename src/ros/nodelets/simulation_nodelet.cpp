@@ -15,6 +15,7 @@
 #include "lodestar/ros/convert/imu.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
+#include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/convert/transform.hpp"
@@ -30,6 +31,7 @@ const char* const kOdom = "odom";
 const char* const kCamera = "camera_optical_frame";
 const char* const kImu = "imu_link";
 const char* const kIr = "ir_array";
+const char* const kFork = "fork";
 }  // namespace
 
 void SimulationNodelet::onInit() {
@@ -67,6 +69,10 @@ void SimulationNodelet::advertise() {
   odometry_ = nh.advertise<nav_msgs::Odometry>("odom", 50);
   ir_ = nh.advertise<IrFrame>("ir/frames", 50);
   if (scenario_.fixes) fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 50);
+  if (scenario_.loads) {
+    load_ = nh.advertise<LoadState>("load", 50);
+    pallet_truth_ = nh.advertise<PalletArray>("ground_truth/pallets", 2, true);
+  }
   truth_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", 100);
   camera_truth_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/camera_pose", 100);
   if (publish_clock_) clock_publisher_ = nh.advertise<rosgraph_msgs::Clock>("/clock", 1);
@@ -79,7 +85,8 @@ void SimulationNodelet::publish_mounts() {
   mounts_->sendTransform(
       std::vector<geometry_msgs::TransformStamped>{transform_message(scenario_.T_base_camera, stamp, kBase, kCamera),
                                                    transform_message(scenario_.imu.T_base_imu, stamp, kBase, kImu),
-                                                   transform_message(scenario_.ir.T_base_ir, stamp, kBase, kIr)});
+                                                   transform_message(scenario_.ir.T_base_ir, stamp, kBase, kIr),
+                                                   transform_message(scenario_.T_base_fork, stamp, kBase, kFork)});
 }
 
 void SimulationNodelet::step() {
@@ -123,6 +130,12 @@ void SimulationNodelet::publish(const OdometrySample& sample) {
 void SimulationNodelet::publish(const RawIrFrame& frame) { ir_.publish(ir_frame_message(frame, kIr)); }
 
 void SimulationNodelet::publish(const Fix& fix) { fix_.publish(pose_estimate_message(fix, map_frame_)); }
+
+void SimulationNodelet::publish(const LoadSample& sample) { load_.publish(load_message(sample, kFork)); }
+
+void SimulationNodelet::publish(const sim::TruePallets& truth) {
+  pallet_truth_.publish(pallet_array_message(truth.pallets, truth.stamp, map_frame_));
+}
 
 void SimulationNodelet::publish(const sim::TrueBase& truth) {
   truth_.publish(pose_message(StampedPose{truth.stamp, truth.T_map_base}, map_frame_));

@@ -38,6 +38,7 @@ void VisualizationNodelet::onInit() {
     if (beacons_) draw_site();
   });
   draw_site();
+  pallets_ = std::make_unique<PalletDrawing>(nh, *edge_);
   sightings_ = nh.subscribe("beacons/sightings", 5, &VisualizationNodelet::take_sightings, this);
   pose_ = nh.subscribe("pose", 5, &VisualizationNodelet::take_pose, this);
   integrity_subscriber_ = nh.subscribe("pose/integrity", 5, &VisualizationNodelet::take_integrity, this);

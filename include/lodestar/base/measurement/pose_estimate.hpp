@@ -27,6 +27,8 @@ struct Fix : PoseEstimate {
 struct StateEstimate : PoseEstimate {
   Eigen::Vector3d velocity_base_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< base_link
+  /// Of the velocity (m/s), then of the angular velocity (rad/s), both in base_link.
+  Eigen::Matrix<double, 6, 6> twist_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 }  // namespace lodestar

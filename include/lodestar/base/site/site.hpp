@@ -11,6 +11,7 @@
 #include "lodestar/base/common/ids.hpp"
 #include "lodestar/base/common/result.hpp"
 #include "lodestar/base/measurement/tone_set.hpp"
+#include "lodestar/base/site/zone.hpp"
 
 namespace lodestar {
 
@@ -42,6 +43,7 @@ struct Site {
   Link link;
   std::vector<double> tone_table_hz;  ///< 1 to ToneSet::kMaxTones, positive, no two the same
   std::vector<Beacon> beacons;        ///< may be empty: then positions come from announcements alone
+  std::vector<Zone> zones;            ///< may be empty; no two cover the same ground at the same height
   std::vector<int> tone_table_lines;  ///< where each tone stands in its file, for faults; empty: not from a file
 };
 
@@ -60,15 +62,16 @@ constexpr double kReuseDistance_m = 30.0;
 
 /// Reads and checks a site file; every fault is listed with file and line: unknown key, missing key, duplicate id,
 /// code or slot clash within 30 m, NaN, a dimensioned key without its unit, slot out of range, more than 3 tones,
-/// tone not in the table, unreadable key file. A relative key_file is looked for beside the site file.
+/// tone not in the table, unreadable key file, a zone without a code of its own or on another's ground. A relative
+/// key_file is looked for beside the site file.
 Result<Site, Faults> load_site(const std::string& path);
 
 /// The same for text at hand. `file_name` is for the faults and for a relative key_file. Throws nothing, whatever the
 /// text holds.
 Result<Site, Faults> parse_site(const std::string& text, const std::string& file_name);
 
-/// Reads a site file for code planning: as load_site, but no beacon needs tones_hz or slot and the file no tone_table_hz;
-/// where they are, they are passed over, as is waveform. Tone table and codes are empty, slots 0.
+/// Reads a site file for code planning: as load_site, but no beacon needs tones_hz or slot and the file no
+/// tone_table_hz; where they are, they are passed over, as is waveform. Tone table and codes are empty, slots 0.
 Result<Site, Faults> load_survey(const std::string& path);
 
 /// The site as text that parse_site reads back to the same site.

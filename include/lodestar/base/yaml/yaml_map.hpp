@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -46,6 +47,11 @@ class YamlMap {
   std::optional<std::vector<Number>> numbers(const std::string& key, std::size_t min_count, std::size_t max_count,
                                              const Limits& limits) const;
 
+  /// A list of `min_count` to `max_count` points of `dimension` numbers each.
+  std::optional<std::vector<Eigen::VectorXd>> points(const std::string& key, std::size_t min_count,
+                                                     std::size_t max_count, std::size_t dimension,
+                                                     const Limits& limits) const;
+
   /// The items of a list; none where the key is missing or null.
   std::vector<YAML::Node> list(const std::string& key) const;
 
@@ -58,6 +64,8 @@ class YamlMap {
  private:
   void take(const YAML::Node& key, const YAML::Node& value, const std::vector<YamlKey>& keys);
   std::optional<double> number(const YAML::Node& node, const std::string& path, int line, const Limits& limits) const;
+  std::optional<std::vector<Number>> numbers(const YAML::Node& node, const std::string& path, int line,
+                                             std::size_t min_count, std::size_t max_count, const Limits& limits) const;
 
   struct Value {
     YAML::Node node;

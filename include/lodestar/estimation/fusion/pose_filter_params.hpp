@@ -53,6 +53,7 @@ struct PoseFilterParams {
   double floor_correlation_m = 1.0;           ///< way over which the floor's tilt changes
   double vehicle_acceleration_m_s2 = 1.5;     ///< what a truck does; where no inertial sensor says it
   double vertical_velocity_sigma_m_s = 0.03;  ///< of base_link along its own z
+  double slip_s2 = 0.003;                     ///< relative slip (one sigma) by acceleration along the way (m/s^2)
   double sideslip_s2 = 0.01;                  ///< slip angle (one sigma, rad) by acceleration across the way (m/s^2)
   double still_velocity_m_s = 0.005;          ///< wheels below it stand
   double still_rate_rad_s = 0.02;             ///< gyro below it (bias taken off) is quiet

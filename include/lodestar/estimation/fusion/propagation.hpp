@@ -47,9 +47,15 @@ Transition move_planar(CoreState& x, double yaw_rate_rad_s, double dt_s, const P
 /// Whether wheel speed is in force at the state's stamp.
 bool wheels_heard(const FilterState& state);
 
+/// Whether the inertial sensor is in force at the state's stamp.
+bool imu_heard(const FilterState& state, const PoseFilterParams& params);
+
 /// As the gyro in force says it, bias taken off; by the wheels where no gyro is heard, 0 where none are (rad/s,
 /// base_link).
 Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params);
+
+/// Acceleration over ground along base_link's x, as the inertial input in force says it (m/s^2).
+double acceleration_along(const FilterState& state);
 
 /// Takes the state to a stamp (not before its own): by the inertial sensor while it is heard, else by the wheels, else
 /// by constant velocity.

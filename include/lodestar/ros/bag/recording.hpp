@@ -16,7 +16,9 @@
 #include "lodestar/base/measurement/announcement.hpp"
 #include "lodestar/base/measurement/image.hpp"
 #include "lodestar/base/measurement/ir_frame.hpp"
+#include "lodestar/base/measurement/load.hpp"
 #include "lodestar/base/measurement/motion.hpp"
+#include "lodestar/base/measurement/pallet.hpp"
 #include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/base/measurement/sighting.hpp"
 
@@ -43,6 +45,8 @@ struct RecordingTopics {
   std::string odometry_filtered = "/odometry/filtered";
   std::string truth_pose = "/ground_truth/pose";
   std::string truth_camera_pose = "/ground_truth/camera_pose";
+  std::string load = "/load";
+  std::string truth_pallets = "/ground_truth/pallets";
 };
 
 /// Frame names of the interfaces page.
@@ -53,6 +57,7 @@ struct RecordingFrames {
   std::string camera = "camera_optical_frame";
   std::string imu = "imu_link";
   std::string ir_array = "ir_array";
+  std::string fork = "fork";
 };
 
 /// A rigid joint of the vehicle.
@@ -149,6 +154,8 @@ class RecordingWriter {
   void write(Stamp received, const RawIrFrame& frame);
   void write(Stamp received, const TruthPose& pose);
   void write(Stamp received, const TruthCameraPose& pose);
+  void write(Stamp received, const LoadSample& sample);
+  void write(Stamp received, const std::vector<Pallet>& true_pallets, Stamp stamp);
   void write(Stamp received, const Announcement& announcement);
   void write(Stamp received, const Sightings& sightings);
   void write(Stamp received, const Fix& fix);

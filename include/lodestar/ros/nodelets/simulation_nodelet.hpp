@@ -26,6 +26,8 @@ class SimulationNodelet : public nodelet::Nodelet {
   void publish(const OdometrySample& sample);
   void publish(const RawIrFrame& frame);
   void publish(const Fix& fix);
+  void publish(const LoadSample& sample);
+  void publish(const sim::TruePallets& truth);
   void publish(const sim::TrueBase& truth);
   void publish(const sim::TrueCamera& truth);
   void report(Health::Status& status);
@@ -43,7 +45,8 @@ class SimulationNodelet : public nodelet::Nodelet {
   double behind_s_ = 0;       ///< real time that the machine could not keep up with
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> mounts_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
-  ros::Publisher image_, camera_info_, imu_, odometry_, ir_, fix_, truth_, camera_truth_, clock_publisher_;
+  ros::Publisher image_, camera_info_, imu_, odometry_, ir_, fix_, load_, truth_, camera_truth_, pallet_truth_,
+      clock_publisher_;
   ros::WallTimer timer_;
 };
 

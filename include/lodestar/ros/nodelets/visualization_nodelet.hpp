@@ -14,6 +14,7 @@
 #include "lodestar/PoseIntegrity.h"
 #include "lodestar/base/measurement/image.hpp"
 #include "lodestar/ros/nodelets/beacon_input.hpp"
+#include "lodestar/ros/nodelets/pallet_drawing.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"
 
 namespace lodestar {
@@ -38,6 +39,7 @@ class VisualizationNodelet : public nodelet::Nodelet {
   std::string camera_frame_;
   std::unique_ptr<StageEdge> edge_;
   std::unique_ptr<BeaconInput> beacons_;
+  std::unique_ptr<PalletDrawing> pallets_;
   StreamWatch* pose_watch_ = nullptr;
   StreamWatch* sightings_watch_ = nullptr;
   std::deque<Image> images_;

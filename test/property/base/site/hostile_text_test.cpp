@@ -18,6 +18,10 @@ beacons:
     position_m: [10, -3.75, 8]
     tones_hz: [12]
     slot: 3
+zones:
+  - {code: A, kind: storage, polygon_m: [[0, 0], [9, 0], [9, 9]], z_m: [0, 5], levels_m: [0, 2],
+     places: {first_m: [6, 2], pitch_m: [1.3, 0.9], columns: 2, rows: 2, yaw_deg: 0}}
+  - {code: IN, kind: dock, polygon_m: [[-9, 0], [-1, 0], [-1, 9]]}
 )";
 
 const std::string kVehicle = R"(vehicle: {name: t7}

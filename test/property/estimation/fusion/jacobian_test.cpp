@@ -125,7 +125,7 @@ TEST_P(Jacobians, wheels) {
   sample.velocity_m_s << uniform(3), uniform(0.2);
   const Eigen::Vector3d gyro = vector(1);
   const auto innovation = [&](const FilterState& at) {
-    return wheels_innovation(at, sample, gyro, r, PoseFilterParams{});
+    return wheels_innovation(at, sample, gyro, {0.5, 1}, r, PoseFilterParams{});
   };
   expect_near(full_jacobian(x, innovation(x)),
               numeric_jacobian<3>(x, [&](const FilterState& at) { return innovation(at).residual; }), 1e-7);

@@ -81,6 +81,15 @@ TEST(PoseFilter, starts_with_a_fix) {
   EXPECT_NEAR(filter.estimate()->T_map_base.translation().y(), 2, 1e-9);
 }
 
+TEST(PoseFilter, tells_how_well_it_knows_its_motion) {
+  const auto estimate = standing_filter().estimate();
+  ASSERT_TRUE(estimate);
+  const Eigen::Matrix<double, 6, 1> variance = estimate->twist_covariance.diagonal();
+  EXPECT_LT(std::sqrt(variance.head<3>().maxCoeff()), 0.01) << "it stands";
+  EXPECT_GT(std::sqrt(variance.head<3>().minCoeff()), 1e-4);
+  EXPECT_NEAR(std::sqrt(variance[5]), PoseFilterParams{}.gyro_noise_rad_s, 5e-4) << "a rate is one sample of the gyro";
+}
+
 TEST(PoseFilter, a_late_fix_starts_at_its_own_stamp) {
   PoseFilter filter{PoseFilterParams{}};
   for (int i = 0; i <= 100; ++i) {

@@ -101,6 +101,7 @@ TEST(FilteredOdometry, CarriesPoseInMapAndTwistInBase) {
   estimate.covariance(0, 5) = 0.25;
   estimate.velocity_base_m_s = {1, 2, 3};
   estimate.angular_velocity_rad_s = {4, 5, 6};
+  estimate.twist_covariance(1, 3) = 0.5;
   const nav_msgs::Odometry message = odometry_message(estimate, "map", "base_link");
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.child_frame_id, "base_link");
@@ -108,7 +109,7 @@ TEST(FilteredOdometry, CarriesPoseInMapAndTwistInBase) {
   EXPECT_EQ(message.pose.covariance[5], 0.25);
   EXPECT_EQ(message.twist.twist.linear.z, 3);
   EXPECT_EQ(message.twist.twist.angular.x, 4);
-  EXPECT_EQ(message.twist.covariance[7], -1);
+  EXPECT_EQ(message.twist.covariance[9], 0.5);
 }
 
 }  // namespace

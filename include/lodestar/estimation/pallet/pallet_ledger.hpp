@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lodestar/estimation/pallet/pallet_map.hpp"
+
+namespace lodestar {
+
+/// The pallets with the changes that made them so: whatever changes a pallet is written down here, numbered without
+/// gaps.
+class PalletLedger {
+ public:
+  using Changes = std::vector<PalletChange>;
+
+  explicit PalletLedger(std::vector<PalletSize> sizes) : map_(std::move(sizes)) {}
+  /// @param latest the last change of each pallet
+  void restore(const Changes& latest);
+
+  const PalletMap& map() const { return map_; }
+  void set_carried(const std::set<std::string>& ids) { map_.set_carried(ids); }
+  /// What was written since the last call.
+  Changes take();
+
+  /// A pick or a drop.
+  void write(PalletChangeKind kind, const Pallet& pallet, Stamp stamp, const std::vector<std::string>& candidates);
+  /// A correction of what was last written of this pallet.
+  void amend(const Pallet& pallet, Stamp stamp, const std::vector<std::string>& candidates, const std::string& reason);
+
+  /// The pallet, or its place, is in doubt from now on.
+  void doubt(const std::string& id, Stamp stamp, const std::string& reason);
+  /// The pallet is so, and in this state, without a doubt; what were its candidates stand where they stood.
+  void settle(Pallet pallet, PalletState state, Stamp stamp, const std::string& reason);
+  /// What was told as `id` is pallet `into`, in this state; `id` ends.
+  void merge(const std::string& id, const std::string& into, PalletState state, Stamp stamp, const std::string& reason);
+  /// This pallet was found: it is no other's candidate any more.
+  void strike(const std::string& id, Stamp stamp, const std::string& reason);
+
+  /// Pallets that left the site before this instant are forgotten, but for the last change of all.
+  void forget_gone(Stamp before);
+
+ private:
+  void write(PalletChange change);
+  void release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason);
+
+  PalletMap map_;
+  std::uint64_t sequence_ = 0;
+  Changes changes_;
+};
+
+}  // namespace lodestar

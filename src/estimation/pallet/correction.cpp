@@ -1,0 +1,70 @@
+#include "lodestar/estimation/pallet/correction.hpp"
+
+#include "lodestar/base/measurement/sscc.hpp"
+#include "lodestar/estimation/pallet/placing.hpp"
+
+namespace lodestar {
+namespace {
+
+std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrection& correction) {
+  if (map.find(correction.id) == nullptr) return CorrectionFault::kUnknownPallet;
+  if (!correction.same_as.empty()) {
+    const PalletChange* same = map.find(correction.same_as);
+    if (same == nullptr || correction.same_as == correction.id ||
+        (map.carries(correction.same_as) && !map.carries(correction.id)))
+      return CorrectionFault::kUnknownSame;
+  }
+  if (!correction.sscc.empty()) {
+    if (!is_sscc(correction.sscc)) return CorrectionFault::kSscc;
+    const PalletChange* owner = map.with_sscc(correction.sscc);
+    if (owner != nullptr && owner->pallet.id != correction.id && owner->pallet.id != correction.same_as)
+      return CorrectionFault::kSsccTaken;
+  }
+  if (!correction.type.empty() && map.find_size(correction.type) == nullptr) return CorrectionFault::kType;
+  if (map.carries(correction.id) && (correction.gone || correction.pose)) return CorrectionFault::kOnFork;
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* name(CorrectionFault fault) {
+  switch (fault) {
+    case CorrectionFault::kUnknownPallet:
+      return "no pallet has this id";
+    case CorrectionFault::kUnknownSame:
+      return "same_as names no other pallet, or one that is on the fork";
+    case CorrectionFault::kSscc:
+      return "sscc is not 18 digits with a right check digit";
+    case CorrectionFault::kSsccTaken:
+      return "another pallet has this sscc: give its id in same_as";
+    case CorrectionFault::kType:
+      return "the vehicle file has no such type";
+    case CorrectionFault::kOnFork:
+      return "the fork carries this pallet: it has no other pose and is not gone";
+  }
+  return "unknown";
+}
+
+std::optional<CorrectionFault> correct(PalletLedger& ledger, const std::vector<Zone>& zones,
+                                       const PalletCorrection& correction) {
+  if (const auto fault = fault_of(ledger.map(), correction)) return fault;
+  const PalletState here = ledger.map().carries(correction.id) ? PalletState::kOnFork : PalletState::kStanding;
+  const bool merged = !correction.same_as.empty();
+  if (merged) ledger.merge(correction.id, correction.same_as, here, correction.stamp, correction.reason);
+  const std::string& id = merged ? correction.same_as : correction.id;
+
+  const bool more = !correction.sscc.empty() || !correction.type.empty() || correction.gone || correction.pose;
+  if (merged && !more) return std::nullopt;
+  Pallet pallet = ledger.map().find(id)->pallet;
+  if (!correction.sscc.empty()) pallet.sscc = correction.sscc;
+  if (!correction.type.empty()) pallet.type = correction.type;
+  if (correction.pose) {
+    pallet.coasting = false;
+    put(pallet, *correction.pose, zones, ledger.map());
+  }
+  const bool gone = correction.gone || (pallet.state == PalletState::kGone && !correction.pose);
+  ledger.settle(pallet, gone ? PalletState::kGone : here, correction.stamp, correction.reason);
+  return std::nullopt;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,122 @@
+#include "lodestar/estimation/pallet/pallet_ledger.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lodestar {
+namespace {
+
+bool lists(const PalletChange& change, const std::string& id) {
+  return std::find(change.candidates.begin(), change.candidates.end(), id) != change.candidates.end();
+}
+
+}  // namespace
+
+void PalletLedger::restore(const Changes& latest) {
+  for (const PalletChange& change : latest) map_.set(change);
+  sequence_ = map_.last_sequence();
+}
+
+PalletLedger::Changes PalletLedger::take() { return std::exchange(changes_, {}); }
+
+void PalletLedger::write(PalletChange change) {
+  change.sequence = ++sequence_;
+  map_.set(change);
+  changes_.push_back(std::move(change));
+}
+
+void PalletLedger::write(PalletChangeKind kind, const Pallet& pallet, Stamp stamp,
+                         const std::vector<std::string>& candidates) {
+  PalletChange change;
+  change.stamp = stamp;
+  change.kind = kind;
+  change.pallet = pallet;
+  change.candidates = candidates;
+  write(std::move(change));
+}
+
+void PalletLedger::amend(const Pallet& pallet, Stamp stamp, const std::vector<std::string>& candidates,
+                         const std::string& reason) {
+  PalletChange change;
+  change.stamp = stamp;
+  change.kind = PalletChangeKind::kCorrection;
+  change.pallet = pallet;
+  change.candidates = candidates;
+  change.reason = reason;
+  if (const PalletChange* last = map_.find(pallet.id)) change.corrects = last->sequence;
+  write(std::move(change));
+}
+
+void PalletLedger::doubt(const std::string& id, Stamp stamp, const std::string& reason) {
+  const PalletChange last = *map_.find(id);
+  Pallet pallet = last.pallet;
+  pallet.state = PalletState::kUncertain;
+  pallet.changed = stamp;
+  amend(pallet, stamp, last.candidates, reason);
+}
+
+void PalletLedger::settle(Pallet pallet, PalletState state, Stamp stamp, const std::string& reason) {
+  const std::vector<std::string> candidates = map_.find(pallet.id)->candidates;
+  if (pallet.state != state) pallet.changed = stamp;
+  pallet.state = state;
+  amend(pallet, stamp, {}, reason);
+  release(candidates, stamp, reason);
+}
+
+void PalletLedger::merge(const std::string& id, const std::string& into, PalletState state, Stamp stamp,
+                         const std::string& reason) {
+  const PalletChange told = *map_.find(id);
+  const Pallet& same = map_.find(into)->pallet;
+  PalletChange change;
+  change.stamp = stamp;
+  change.kind = PalletChangeKind::kCorrection;
+  change.pallet = told.pallet;
+  change.pallet.id = into;
+  change.pallet.type = same.type;
+  if (!same.sscc.empty()) change.pallet.sscc = same.sscc;
+  change.pallet.state = state;
+  change.pallet.changed = stamp;
+  change.reason = reason;
+  change.corrects = told.sequence;
+  write(std::move(change));
+
+  Pallet ended = told.pallet;
+  ended.state = PalletState::kGone;
+  ended.changed = stamp;
+  amend(ended, stamp, {}, reason);
+  release(told.candidates, stamp, reason);
+  strike(into, stamp, reason);
+}
+
+/// Candidates that nothing else asks for stand where they stood.
+void PalletLedger::release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason) {
+  for (const std::string& id : candidates) {
+    const PalletChange* candidate = map_.find(id);
+    if (candidate == nullptr || candidate->pallet.state != PalletState::kUncertain || !candidate->candidates.empty())
+      continue;
+    const bool asked_for =
+        std::any_of(map_.all().begin(), map_.all().end(), [&](const auto& entry) { return lists(entry.second, id); });
+    if (!asked_for) settle(candidate->pallet, PalletState::kStanding, stamp, reason);
+  }
+}
+
+void PalletLedger::strike(const std::string& id, Stamp stamp, const std::string& reason) {
+  Changes asking;
+  for (const auto& [other, change] : map_.all())
+    if (lists(change, id)) asking.push_back(change);
+  for (PalletChange& change : asking) {
+    auto& candidates = change.candidates;
+    candidates.erase(std::remove(candidates.begin(), candidates.end(), id), candidates.end());
+    amend(change.pallet, stamp, candidates, reason);
+  }
+}
+
+void PalletLedger::forget_gone(Stamp before) {
+  std::vector<std::string> old;
+  for (const auto& [id, change] : map_.all())
+    if (change.pallet.state == PalletState::kGone && change.stamp < before && change.sequence != sequence_)
+      old.push_back(id);
+  for (const std::string& id : old) map_.erase(id);
+}
+
+}  // namespace lodestar

@@ -1,0 +1,129 @@
+#include "lodestar/ros/nodelets/pallet_file.hpp"
+
+#include <fcntl.h>
+#include <ros/serialization.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include "lodestar/PalletMemory.h"
+#include "lodestar/ros/convert/pallet.hpp"
+#include "lodestar/ros/convert/transform.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr int kRows[] = {0, 1, 2, 5};  // of a pose's covariance that a seat has
+
+std::size_t cell(int i, int j) { return static_cast<std::size_t>(6 * kRows[i] + kRows[j]); }
+
+geometry_msgs::PoseWithCovariance seat_message(const Seat& seat) {
+  geometry_msgs::PoseWithCovariance message;
+  message.pose = pose_message(seat.T_fork_pallet);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) message.covariance[cell(i, j)] = seat.covariance(i, j);
+  return message;
+}
+
+std::optional<Seat> seat_from(const geometry_msgs::PoseWithCovariance& message) {
+  const auto T_fork_pallet = transform_from(message.pose);
+  if (!T_fork_pallet) return std::nullopt;
+  Seat seat;
+  seat.T_fork_pallet = *T_fork_pallet;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) seat.covariance(i, j) = message.covariance[cell(i, j)];
+  if (!seat.covariance.allFinite()) return std::nullopt;
+  return seat;
+}
+
+std::string checksum() { return ros::message_traits::MD5Sum<PalletMemory>::value(); }
+
+std::string packed(const PalletMemory& memory) {
+  std::string text(ros::serialization::serializationLength(memory), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&text[0]),
+                                     static_cast<std::uint32_t>(text.size()));
+  ros::serialization::serialize(stream, memory);
+  return checksum() + text;
+}
+
+std::optional<PalletMemory> unpacked(std::string text) {
+  const std::size_t head = checksum().size();
+  if (text.compare(0, head, checksum()) != 0) return std::nullopt;
+  try {
+    PalletMemory memory;
+    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(&text[0]) + head,
+                                       static_cast<std::uint32_t>(text.size() - head));
+    ros::serialization::deserialize(stream, memory);
+    if (stream.getLength() == 0 && memory.carried.size() == memory.seats.size()) return memory;
+  } catch (const std::exception&) {  // shorter than it says
+  }
+  return std::nullopt;
+}
+
+bool restore(PalletTracker& tracker, const PalletMemory& memory, const std::string& map_frame) {
+  PalletTracker::Changes latest;
+  for (const PalletEvent& event : memory.events) {
+    const auto change = pallet_change_from(event, map_frame);
+    if (!change) return false;
+    latest.push_back(*change);
+  }
+  std::vector<CarriedPallet> carried;
+  for (std::size_t i = 0; i < memory.seats.size(); ++i) {
+    const auto seat = seat_from(memory.seats[i]);
+    const auto is_it = [&](const PalletChange& change) { return change.pallet.id == memory.carried[i]; };
+    if (!seat || std::none_of(latest.begin(), latest.end(), is_it)) return false;
+    carried.push_back({memory.carried[i], *seat});
+  }
+  tracker.restore(latest, carried);
+  return true;
+}
+
+/// False, with errno, where it could not be written to the disk's last layer.
+bool write_through(const std::string& path, const std::string& text) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) return false;
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t wrote = ::write(file, text.data() + done, text.size() - done);
+    if (wrote < 0 && errno != EINTR) break;
+    if (wrote > 0) done += static_cast<std::size_t>(wrote);
+  }
+  const bool good = done == text.size() && ::fsync(file) == 0;
+  return ::close(file) == 0 && good;
+}
+
+}  // namespace
+
+void PalletFile::load_into(PalletTracker& tracker) {
+  std::error_code none;
+  if (path_.empty() || !std::filesystem::exists(path_, none)) return;
+  std::ifstream stream(path_, std::ios::binary);
+  const auto memory = unpacked(std::string(std::istreambuf_iterator<char>(stream), {}));
+  if (memory && restore(tracker, *memory, map_frame_)) return;
+  const std::string aside = path_ + ".broken";
+  std::filesystem::rename(path_, aside, none);
+  fault_ = path_ + " cannot be understood: set aside as " + aside + ", and no pallet is known";
+}
+
+void PalletFile::save(const PalletTracker& tracker) {
+  if (path_.empty()) return;
+  PalletMemory memory;
+  for (const auto& [id, change] : tracker.pallets().all())
+    memory.events.push_back(pallet_event_message(change, map_frame_));
+  for (const CarriedPallet& carried : tracker.carried()) {
+    memory.carried.push_back(carried.id);
+    memory.seats.push_back(seat_message(carried.seat));
+  }
+  const std::string beside = path_ + ".new";
+  fault_.clear();
+  if (!write_through(beside, packed(memory)) || ::rename(beside.c_str(), path_.c_str()) != 0)
+    fault_ = path_ + " cannot be written: " + std::strerror(errno);
+}
+
+}  // namespace lodestar

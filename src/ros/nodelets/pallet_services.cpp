@@ -1,0 +1,133 @@
+#include "lodestar/ros/nodelets/pallet_services.hpp"
+
+#include <cmath>
+
+#include "lodestar/estimation/pallet/placing.hpp"
+#include "lodestar/ros/convert/pallet.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
+#include "lodestar/ros/convert/transform.hpp"
+
+namespace lodestar {
+namespace {
+
+bool begins(const std::string& text, const std::string& beginning) {
+  return text.compare(0, beginning.size(), beginning) == 0;
+}
+
+/// Whether the pallet is one of those that the request asks for, but for the area.
+bool matches(const Pallet& pallet, const FindPallets::Request& request) {
+  if (pallet.state == PalletState::kGone && !request.gone) return false;
+  if (!begins(pallet.id, request.id) && !begins(pallet.sscc, request.id)) return false;
+  if (!request.zone.empty() && pallet.zone != request.zone) return false;
+  if (!request.since.isZero() && pallet.changed < stamp_from(request.since)) return false;
+  return request.until.isZero() || pallet.changed <= stamp_from(request.until);
+}
+
+FloorPolygon polygon_from(const geometry_msgs::Polygon& message) {
+  FloorPolygon polygon;
+  for (const geometry_msgs::Point32& point : message.points) polygon.emplace_back(point.x, point.y);
+  return polygon;
+}
+
+/// Empty, with the reason in `why`, where the request tells a pose that is none.
+std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& request, std::string& why) {
+  PalletCorrection correction;
+  correction.stamp = stamp_from(ros::Time::now());
+  correction.id = request.id;
+  correction.same_as = request.same_as;
+  correction.sscc = request.sscc;
+  correction.type = request.type;
+  correction.gone = request.gone;
+  correction.reason = request.reason;
+  if (!request.has_pose) return correction;
+  const auto T_map_pallet = transform_from(request.pose);
+  const double m = request.position_sigma_m, rad = request.yaw_sigma_rad;
+  const bool sure = std::isfinite(m) && std::isfinite(rad) && m > 0 && rad > 0;
+  if (!T_map_pallet || !sure) {
+    why = T_map_pallet ? "position_sigma_m and yaw_sigma_rad have to be above 0"
+                       : std::string("the pose is none: ") + name(T_map_pallet.error());
+    return std::nullopt;
+  }
+  PalletPose& pose = correction.pose.emplace();
+  pose.T_map_pallet = *T_map_pallet;
+  pose.covariance.diagonal() << m * m, m * m, m * m, rad * rad, rad * rad, rad * rad;
+  return correction;
+}
+
+}  // namespace
+
+PalletServices::PalletServices(ros::NodeHandle& nh, PalletTracker& tracker, const std::vector<Zone>& zones,
+                               std::function<void(const PalletTracker::Changes&)> on_change)
+    : tracker_(tracker), zones_(zones), on_change_(std::move(on_change)) {
+  servers_ = {nh.advertiseService("pallets/get", &PalletServices::get, this),
+              nh.advertiseService("pallets/find", &PalletServices::find, this),
+              nh.advertiseService("pallets/correct", &PalletServices::correct, this),
+              nh.advertiseService("pallets/free_places", &PalletServices::free, this)};
+}
+
+bool PalletServices::get(GetPallet::Request& request, GetPallet::Response& response) {
+  const PalletChange* last = tracker_.pallets().find(request.id);
+  if (last == nullptr && !request.id.empty()) last = tracker_.pallets().with_sscc(request.id);
+  response.found = last != nullptr;
+  if (last == nullptr) return true;
+  for (const Pallet& pallet : tracker_.now())
+    if (pallet.id == last->pallet.id) response.pallet = pallet_message(pallet);
+  const bool here = last->pallet.state == PalletState::kStanding || last->pallet.state == PalletState::kUncertain;
+  if (here && !last->pallet.zone.empty())
+    response.place = storage_code(zones_, last->pallet.T_map_pallet.translation());
+  response.candidates = last->candidates;
+  response.sequence = last->sequence;
+  return true;
+}
+
+bool PalletServices::find(FindPallets::Request& request, FindPallets::Response& response) {
+  const FloorPolygon area = polygon_from(request.area);
+  response.success = area.empty() || is_simple(area);
+  if (!response.success) {
+    response.message = "area is no polygon: give at least three corners in order, with no side across another";
+    return true;
+  }
+  for (const Pallet& pallet : tracker_.now()) {
+    const bool inside = area.empty() || contains(area, pallet.T_map_pallet.translation().head<2>());
+    if (inside && matches(pallet, request)) response.pallets.push_back(pallet_message(pallet));
+  }
+  return true;
+}
+
+bool PalletServices::correct(CorrectPallet::Request& request, CorrectPallet::Response& response) {
+  const auto correction = correction_from(request, response.message);
+  if (!correction) return true;
+  const auto changes = tracker_.correct(*correction);
+  response.success = changes.ok();
+  if (changes) {
+    on_change_(*changes);
+  } else {
+    response.message = name(changes.error());
+  }
+  return true;
+}
+
+bool PalletServices::free(FreePlaces::Request& request, FreePlaces::Response& response) {
+  const Zone* zone = find_zone(zones_, request.zone);
+  const PalletMap& map = tracker_.pallets();
+  response.success = false;
+  if (zone == nullptr) {
+    response.message = "the site file has no such zone";
+  } else if (zone->kind == ZoneKind::kDock) {
+    response.message = "the zone is a dock: what is set down there leaves the site";
+  } else if (!request.type.empty() && map.find_size(request.type) == nullptr) {
+    response.message = name(CorrectionFault::kType);
+  } else {
+    response.success = true;
+    for (const Place& place : free_places(*zone, map.size(request.type), map)) {
+      RigidTransform T_map_pallet = RigidTransform::Identity();
+      T_map_pallet.translation() = place.position_map;
+      T_map_pallet.linear() = rotation({0, 0, place.yaw_rad});
+      response.codes.push_back(place.code);
+      response.poses.push_back(pose_message(T_map_pallet));
+    }
+  }
+  return true;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,316 @@
+#include "lodestar/estimation/pallet/pallet_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/pallet_truck.hpp"
+
+namespace lodestar {
+namespace {
+
+using test::PalletTruck;
+
+double yaw_of(const Pallet& pallet) { return roll_pitch_yaw(pallet.T_map_pallet.linear()).yaw_rad; }
+
+TEST(PalletTracker, picks_and_drops_by_pose) {
+  PalletTruck truck;
+  truck.stand(5, 3, radians(90));
+  const auto picked = truck.lift(PalletTruck::sscc(7));
+  ASSERT_EQ(picked.size(), 1u);
+  EXPECT_EQ(picked[0].sequence, 1u);
+  EXPECT_EQ(picked[0].kind, PalletChangeKind::kPick);
+  EXPECT_EQ(picked[0].pallet.state, PalletState::kOnFork);
+  EXPECT_EQ(picked[0].pallet.id, "id1");
+  EXPECT_EQ(picked[0].pallet.sscc, PalletTruck::sscc(7));
+  EXPECT_EQ(picked[0].pallet.type, "epal");
+  truck.stand(8, 4, radians(-30));
+  const auto dropped = truck.lower();
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].sequence, 2u);
+  EXPECT_EQ(dropped[0].kind, PalletChangeKind::kDrop);
+  const Pallet& pallet = dropped[0].pallet;
+  EXPECT_EQ(pallet.state, PalletState::kStanding);
+  EXPECT_NEAR((pallet.T_map_pallet.translation() - Eigen::Vector3d(8, 4, 0)).norm(), 0, 1e-9);
+  EXPECT_NEAR(yaw_of(pallet), radians(-30), 1e-9);
+  EXPECT_EQ(pallet.level, 0);
+  EXPECT_FALSE(pallet.coasting);
+  EXPECT_GT(pallet.covariance(0, 0), 2e-4) << "the truck's 10 mm and the seat's";
+}
+
+TEST(PalletTracker, knows_a_pallet_by_where_it_stands) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  truck.stand(0.01, 0.91);
+  const auto changes = truck.lift();
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].pallet.id, "id2");
+  EXPECT_EQ(changes[0].pallet.sscc, PalletTruck::sscc(2));
+}
+
+TEST(PalletTracker, finds_a_pallet_again_from_its_other_sides) {
+  for (const double yaw_deg : {180.0, 90.0, -90.0}) {
+    PalletTruck truck;
+    truck.bring(0, 0, PalletTruck::sscc(1));
+    // Across the tines its middle is 0.4 m from their roots and not 0.6 m.
+    const double back = std::abs(yaw_deg) == 90 ? 0.2 : 0;
+    truck.stand(back * std::cos(radians(yaw_deg)), back * std::sin(radians(yaw_deg)), radians(yaw_deg));
+    EXPECT_EQ(truck.lift().at(0).pallet.id, "id1") << yaw_deg;
+    truck.stand(20, 0, radians(yaw_deg));
+    const Pallet pallet = truck.lower().at(0).pallet;
+    EXPECT_NEAR(yaw_of(pallet), 0, 1e-6) << "it was not turned, only seen from elsewhere";
+  }
+}
+
+TEST(PalletTracker, asks_where_two_may_be_meant_and_takes_the_answer) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  truck.set_sigma(0.4);
+  truck.stand(0, 0.5);
+  const auto changes = truck.lift();
+  ASSERT_EQ(changes.size(), 3u);
+  EXPECT_EQ(changes[0].pallet.state, PalletState::kUncertain);
+  EXPECT_EQ(changes[0].pallet.id, "id3");
+  EXPECT_EQ(changes[0].candidates, (std::vector<std::string>{"id2", "id1"}));
+  EXPECT_EQ(changes[1].kind, PalletChangeKind::kCorrection);
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kUncertain);
+  for (const Pallet* pallet : truck.tracker.pallets().standing())
+    EXPECT_NE(pallet->id, "id3") << "what is on the fork stands nowhere, whatever it is";
+  truck.set_sigma(0.01);
+  truck.stand(50, 0);
+  EXPECT_EQ(truck.lower().at(0).pallet.state, PalletState::kUncertain) << "setting it down answers nothing";
+
+  PalletCorrection answer;
+  answer.stamp = truck.now;
+  answer.id = "id3";
+  answer.same_as = "id1";
+  answer.reason = "I looked";
+  const auto corrected = truck.tracker.correct(answer);
+  ASSERT_TRUE(corrected.ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding);
+  EXPECT_NEAR(truck.pallet("id1").T_map_pallet.translation().x(), 50, 1e-6);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+  EXPECT_NEAR(truck.pallet("id2").T_map_pallet.translation().y(), 0.9, 1e-6);
+  EXPECT_EQ(truck.pallet("id3").state, PalletState::kGone);
+  EXPECT_EQ(corrected->at(0).pallet.id, "id1");
+  EXPECT_EQ(corrected->at(0).reason, "I looked");
+  EXPECT_EQ(corrected->at(0).corrects, 8u) << "the drop of id3";
+}
+
+TEST(PalletTracker, asks_where_one_stands_that_is_not_quite_there) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.stand(0, 0.3);
+  const auto changes = truck.lift();
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes[0].pallet.state, PalletState::kUncertain);
+  EXPECT_EQ(changes[0].candidates, std::vector<std::string>{"id1"});
+}
+
+TEST(PalletTracker, a_label_read_late_settles_what_was_asked) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  truck.set_sigma(0.4);
+  truck.stand(0, 0.5);
+  truck.lift();
+  const auto changes = truck.load(true, PalletTruck::sscc(1));
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kOnFork);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id3").state, PalletState::kGone);
+  truck.set_sigma(0.01);
+  truck.stand(30, 0);
+  EXPECT_EQ(truck.lower().at(0).pallet.id, "id1");
+}
+
+TEST(PalletTracker, a_label_outweighs_the_map) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(5, 0, PalletTruck::sscc(2));
+  truck.stand(0, 0);
+  const auto changes = truck.lift(PalletTruck::sscc(2));
+  EXPECT_EQ(changes.at(0).pallet.id, "id2");
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "another was lifted where it stood";
+}
+
+TEST(PalletTracker, a_label_names_the_nameless_that_stands_there) {
+  PalletTruck truck;
+  truck.bring(0, 0);
+  truck.stand(0, 0);
+  const auto changes = truck.lift(PalletTruck::sscc(4));
+  EXPECT_EQ(changes.at(0).pallet.id, "id1");
+  EXPECT_EQ(changes.at(0).pallet.sscc, PalletTruck::sscc(4));
+}
+
+TEST(PalletTracker, stacks_and_carries_two_at_once) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  EXPECT_EQ(truck.bring(0.02, 0.01, PalletTruck::sscc(2), 1.1).at(0).pallet.level, 1);
+  truck.stand(0, 0);
+  // The reader may see the label of the upper one.
+  const auto picked = truck.lift(PalletTruck::sscc(2));
+  ASSERT_EQ(picked.size(), 2u);
+  EXPECT_EQ(picked[0].pallet.id, "id1");
+  EXPECT_EQ(picked[1].pallet.id, "id2");
+  truck.stand(10, 0);
+  const auto dropped = truck.lower();
+  ASSERT_EQ(dropped.size(), 2u);
+  EXPECT_EQ(dropped[0].pallet.level, 0);
+  EXPECT_EQ(dropped[1].pallet.level, 1);
+  EXPECT_NEAR(dropped[1].pallet.T_map_pallet.translation().x(), 10.02, 0.01);
+  EXPECT_NEAR(dropped[1].pallet.T_map_pallet.translation().z(), 1.1, 0.01);
+  truck.stand(10.02, 0.01);
+  const auto upper = truck.lift("", 1.1);
+  ASSERT_EQ(upper.size(), 1u);
+  EXPECT_EQ(upper[0].pallet.id, "id2");
+}
+
+TEST(PalletTracker, tells_racks_docks_and_who_stood_there) {
+  PalletTrackerParams params;
+  Zone rack, dock;
+  rack.code = "R";
+  rack.polygon_map = rectangle({0, 0}, 0, {4, 4});
+  rack.levels_m = {0, 1.6, 3.2};
+  dock.code = "D";
+  dock.kind = ZoneKind::kDock;
+  dock.polygon_map = rectangle({10, 0}, 0, {4, 4});
+  params.zones = {rack, dock};
+  PalletTruck truck(params);
+  const Pallet high = truck.bring(0, 0, "", 3.22).at(0).pallet;
+  EXPECT_EQ(high.level, 2);
+  EXPECT_EQ(high.zone, "R");
+  EXPECT_EQ(truck.bring(10, 0).at(0).pallet.state, PalletState::kGone);
+  truck.bring(0, 0.05, "", 3.2);
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "another was set down where it stood";
+}
+
+TEST(PalletTracker, marks_what_was_set_down_while_localization_coasts) {
+  PalletTruck truck;
+  truck.bring(0, 0);
+  EXPECT_FALSE(truck.pallet("id1").coasting);
+  truck.coasting = true;
+  truck.set_sigma(0.3);
+  const Pallet pallet = truck.bring(5, 0).at(0).pallet;
+  EXPECT_TRUE(pallet.coasting);
+  EXPECT_GT(std::sqrt(pallet.covariance(0, 0)), 0.3);
+  EXPECT_EQ(pallet.state, PalletState::kStanding);
+}
+
+TEST(PalletTracker, loses_no_pallet_without_a_pose) {
+  PalletTruck truck;
+  truck.stand(0, 0);
+  truck.lift(PalletTruck::sscc(1));
+  truck.has_pose = false;
+  truck.now += std::chrono::seconds(1);
+  truck.load(true);
+  const auto dropped = truck.lower();
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].pallet.state, PalletState::kUncertain);
+  EXPECT_GE(dropped[0].pallet.covariance(0, 0), 1e6);
+  EXPECT_EQ(truck.tracker.drops()[PalletDrop::kNoPose], 1u);
+  truck.has_pose = true;
+  truck.stand(3, 0);
+  EXPECT_EQ(truck.lift().at(0).pallet.state, PalletState::kOnFork) << "one lost elsewhere is no candidate";
+  truck.lower();
+  truck.stand(30, 0);
+  EXPECT_EQ(truck.lift(PalletTruck::sscc(1)).at(0).pallet.id, "id1") << "its label finds it";
+}
+
+TEST(PalletTracker, drops_and_counts_what_it_cannot_use) {
+  PalletTruck truck;
+  truck.stand(0, 0);
+  const auto changes = truck.lift("376104250021234568");
+  EXPECT_EQ(changes.at(0).pallet.sscc, "");
+  EXPECT_GT(truck.tracker.drops()[PalletDrop::kLabel], 0u);
+  EXPECT_TRUE(truck.tracker.add_load({truck.now - std::chrono::seconds(1), 0, false, ""}).empty());
+  EXPECT_TRUE(truck.tracker.add_load({truck.now, 0, false, ""}).empty());
+  EXPECT_EQ(truck.tracker.drops()[PalletDrop::kLateLoad], 2u);
+  PoseEstimate late;
+  late.stamp = truck.now - std::chrono::seconds(1);
+  EXPECT_EQ(truck.tracker.add_pose(late, false), PalletDrop::kLatePose);
+  truck.load(true, PalletTruck::sscc(1));
+  truck.load(true, PalletTruck::sscc(2));
+  EXPECT_EQ(truck.tracker.drops()[PalletDrop::kLabelConflict], 1u);
+  EXPECT_EQ(truck.pallet("id1").sscc, PalletTruck::sscc(1));
+}
+
+TEST(PalletTracker, goes_on_after_a_restart_with_its_load) {
+  PalletTruck before;
+  before.bring(0, 0, PalletTruck::sscc(1));
+  before.stand(5, 0, radians(180));
+  before.lift();
+  PalletTracker::Changes latest;
+  for (const auto& [id, change] : before.tracker.pallets().all()) latest.push_back(change);
+
+  PalletTruck after;
+  after.tracker.restore(latest, before.tracker.carried());
+  after.stand(7, 1, radians(90));
+  after.work(true, "", 0);
+  const auto dropped = after.lower();
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].sequence, 4u);
+  EXPECT_EQ(dropped[0].pallet.id, "id2");
+  EXPECT_NEAR((dropped[0].pallet.T_map_pallet.translation() - Eigen::Vector3d(7, 1, 0)).norm(), 0, 1e-9);
+}
+
+TEST(PalletTracker, keeps_pallets_when_time_goes_backwards) {
+  PalletTruck truck;
+  truck.bring(0, 0);
+  truck.now = Stamp(std::chrono::seconds(10));
+  truck.tracker.reset_time();
+  truck.load(false);
+  truck.stand(0, 0);
+  EXPECT_EQ(truck.lift().at(0).pallet.id, "id1");
+}
+
+TEST(PalletTracker, refuses_corrections_that_cannot_be) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(5, 0, PalletTruck::sscc(2));
+  const auto fault = [&](auto&& change) {
+    PalletCorrection correction;
+    correction.stamp = truck.now;
+    correction.id = "id1";
+    change(correction);
+    const auto result = truck.tracker.correct(correction);
+    EXPECT_FALSE(result.ok());
+    return result.ok() ? CorrectionFault::kType : result.error();
+  };
+  using C = PalletCorrection;
+  EXPECT_EQ(fault([](C& c) { c.id = "id9"; }), CorrectionFault::kUnknownPallet);
+  EXPECT_EQ(fault([](C& c) { c.same_as = "id1"; }), CorrectionFault::kUnknownSame);
+  EXPECT_EQ(fault([](C& c) { c.sscc = "1"; }), CorrectionFault::kSscc);
+  EXPECT_EQ(fault([](C& c) { c.sscc = PalletTruck::sscc(2); }), CorrectionFault::kSsccTaken);
+  EXPECT_EQ(fault([](C& c) { c.type = "none"; }), CorrectionFault::kType);
+  truck.stand(0, 0);
+  truck.lift();
+  EXPECT_EQ(fault([](C& c) { c.gone = true; }), CorrectionFault::kOnFork);
+  EXPECT_EQ(fault([](C& c) { c.pose = PalletPose(); }), CorrectionFault::kOnFork);
+}
+
+TEST(PalletTracker, takes_a_persons_word) {
+  PalletTruck truck;
+  truck.bring(0, 0);
+  PalletCorrection correction;
+  correction.stamp = truck.now;
+  correction.id = "id1";
+  correction.sscc = PalletTruck::sscc(3);
+  correction.pose = PalletPose();
+  correction.pose->T_map_pallet.translation() << 2, 2, 0;
+  ASSERT_TRUE(truck.tracker.correct(correction).ok());
+  EXPECT_EQ(truck.pallet("id1").sscc, PalletTruck::sscc(3));
+  EXPECT_EQ(truck.pallet("id1").T_map_pallet.translation().x(), 2);
+  PalletCorrection gone;
+  gone.stamp = truck.now;
+  gone.id = "id1";
+  gone.gone = true;
+  ASSERT_TRUE(truck.tracker.correct(gone).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kGone);
+}
+
+}  // namespace
+}  // namespace lodestar
