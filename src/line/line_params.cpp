@@ -21,6 +21,10 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<d
 
   params.namer.require_announcement = vehicle.has_ir_receiver;
   params.solver.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
+  if (vehicle.floor) {
+    params.solver.floor_z_m = vehicle.floor->z_m;
+    params.solver.floor_tolerance_m = vehicle.floor->tolerance_m;
+  }
 
   params.tilt.gyro_noise_rad_s = vehicle.gyro_noise_rad_s;
   params.tilt.gyro_bias_rad_s = vehicle.gyro_bias_rad_s;

@@ -8,9 +8,10 @@ namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false},   {"imu", false},
-                                        {"odometry", false}, {"infrared", false}, {"fork", false}};
+const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false}, {"imu", false},  {"odometry", false},
+                                        {"infrared", false}, {"fork", false},   {"floor", false}};
 const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
+const std::vector<YamlKey> kFloorKeys = {{"z_m", true}, {"tolerance_m", false}};
 const std::vector<YamlKey> kForkKeys = {{"position_m", true}, {"yaw_deg", false}};
 const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
 const std::vector<YamlKey> kCameraKeys = {
@@ -88,6 +89,13 @@ std::optional<RigidTransform> read_fork(const YamlMap& map) {
   return T_base_fork;
 }
 
+FloorHeight read_floor(const YamlMap& map) {
+  FloorHeight floor;
+  read(map, "z_m", within(-1000, 1000), floor.z_m);
+  read(map, "tolerance_m", above(0, 10), floor.tolerance_m);
+  return floor;
+}
+
 Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
   Vehicle vehicle;
@@ -95,6 +103,7 @@ Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   read_camera(file.section("camera", kCameraKeys), vehicle);
   read_imu(file.section("imu", kImuKeys), vehicle);
   read_odometry(file.section("odometry", kOdometryKeys), vehicle);
+  if (file.has("floor")) vehicle.floor = read_floor(file.section("floor", kFloorKeys));
   if (file.has("fork")) vehicle.T_base_fork = read_fork(file.section("fork", kForkKeys));
   vehicle.has_ir_receiver = file.section("infrared", kInfraredKeys).boolean("receiver").value_or(true);
   return vehicle;

@@ -9,12 +9,19 @@
 
 namespace lodestar {
 
+/// How high base_link is in map while the vehicle stands on the floor.
+struct FloorHeight {
+  double z_m = 0;
+  double tolerance_m = 0.3;
+};
+
 /// What hangs on the forklift and how well it is known. Defaults suit an industrial truck; a vehicle file overrides
 /// any.
 struct Vehicle {
   std::string name = "truck";
   std::optional<RigidTransform> T_base_camera;  ///< empty: from /tf_static
   std::optional<RigidTransform> T_base_imu;     ///< empty: from /tf_static
+  std::optional<FloorHeight> floor;             ///< empty: any height
   std::optional<RigidTransform> T_base_fork;    ///< at its lowest, x along the tines; empty: from /tf_static
   double camera_mount_sigma_rad = 0.002;        ///< of the mount's roll, pitch, yaw
   std::optional<int> window_frames;             ///< empty: window_frames(tone table, rate)

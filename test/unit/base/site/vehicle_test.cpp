@@ -28,6 +28,7 @@ odometry:
   yaw_rate_sigma_deg_s: 1
   scale_sigma: 0.03
 fork: {position_m: [1.4, 0, 0.08], yaw_deg: 90}
+floor: {z_m: -0.5, tolerance_m: 0.2}
 )";
 
 TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
@@ -54,6 +55,9 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   EXPECT_EQ(vehicle->odometry_velocity_sigma_m_s, 0.05);
   EXPECT_NEAR(vehicle->odometry_yaw_rate_sigma_rad_s, radians(1), 1e-15);
   EXPECT_EQ(vehicle->odometry_scale_sigma, 0.03);
+  ASSERT_TRUE(vehicle->floor);
+  EXPECT_EQ(vehicle->floor->z_m, -0.5);
+  EXPECT_EQ(vehicle->floor->tolerance_m, 0.2);
   ASSERT_TRUE(vehicle->T_base_fork);
   EXPECT_EQ(vehicle->T_base_fork->translation(), Eigen::Vector3d(1.4, 0, 0.08));
   EXPECT_NEAR(roll_pitch_yaw(vehicle->T_base_fork->linear()).yaw_rad, radians(90), 1e-12);
@@ -73,6 +77,7 @@ TEST(Vehicle, what_is_left_out_keeps_its_default) {
   EXPECT_FALSE(vehicle->T_base_camera);
   EXPECT_FALSE(vehicle->T_base_imu);
   EXPECT_FALSE(vehicle->T_base_fork);
+  EXPECT_FALSE(vehicle->floor);
   EXPECT_FALSE(vehicle->window_frames);
   EXPECT_FALSE(vehicle->camera_rate_hz);
   EXPECT_EQ(vehicle->camera_mount_sigma_rad, defaults.camera_mount_sigma_rad);
@@ -95,25 +100,26 @@ TEST_P(WrongVehicle, has_this_fault_and_no_other) {
 
 INSTANTIATE_TEST_SUITE_P(
     Vehicle, WrongVehicle,
-    testing::Values(Wrong{"rate_hz: 60", "rate: 60", "5: camera: key \"rate\" has no unit: did you mean \"rate_hz\"?"},
-                    Wrong{"gyro_noise_deg_s: 0.1", "gyro_noise_rad_s: 0.002",
-                          "12: imu: key \"gyro_noise_rad_s\" has another unit: did you mean \"gyro_noise_deg_s\"?"},
-                    Wrong{", rpy_deg: [1, -2, 90]", "", "3: camera.mount has no \"rpy_deg\": add it"},
-                    Wrong{"[1, -2, 90]", "[1, -2]", "3: camera.mount.rpy_deg has 2 numbers: give 3"},
-                    Wrong{"[1, -2, 90]", "[1, nan, 90]", "3: camera.mount.rpy_deg[1] is \"nan\": give a finite number"},
-                    Wrong{"{xyz_m: [0, 0, 0.5], rpy_deg: [0, 0, 180]}", "imu_link",
-                          "11: imu.mount is \"imu_link\": give keys with values"},
-                    Wrong{"mains_hz: 60", "mains_hz: 55", "9: camera.mains_hz is 55: give 50 or 60"},
-                    Wrong{"window_frames: 45", "window_frames: 4",
-                          "6: camera.window_frames is 4: give a whole number from 5 to 1000"},
-                    Wrong{"time_offset_s: -0.004", "time_offset_s: -4",
-                          "7: camera.time_offset_s is -4: give a number from -1 to 1"},
-                    Wrong{"velocity_sigma_m_s: 0.05", "velocity_sigma_m_s: 0",
-                          "17: odometry.velocity_sigma_m_s is 0: give a number above 0 and up to 5"},
-                    Wrong{"position_m: [1.4, 0, 0.08], ", "", "20: fork has no \"position_m\": add it"},
-                    Wrong{"{name: t7}", "{}", "1: vehicle has no \"name\": add it"},
-                    Wrong{"odometry:", "imu: {}\nodometry:",
-                          "16: key \"imu\" is there twice (first on line 11): keep one"}));
+    testing::Values(
+        Wrong{"rate_hz: 60", "rate: 60", "5: camera: key \"rate\" has no unit: did you mean \"rate_hz\"?"},
+        Wrong{"gyro_noise_deg_s: 0.1", "gyro_noise_rad_s: 0.002",
+              "12: imu: key \"gyro_noise_rad_s\" has another unit: did you mean \"gyro_noise_deg_s\"?"},
+        Wrong{", rpy_deg: [1, -2, 90]", "", "3: camera.mount has no \"rpy_deg\": add it"},
+        Wrong{"[1, -2, 90]", "[1, -2]", "3: camera.mount.rpy_deg has 2 numbers: give 3"},
+        Wrong{"[1, -2, 90]", "[1, nan, 90]", "3: camera.mount.rpy_deg[1] is \"nan\": give a finite number"},
+        Wrong{"{xyz_m: [0, 0, 0.5], rpy_deg: [0, 0, 180]}", "imu_link",
+              "11: imu.mount is \"imu_link\": give keys with values"},
+        Wrong{"mains_hz: 60", "mains_hz: 55", "9: camera.mains_hz is 55: give 50 or 60"},
+        Wrong{"window_frames: 45", "window_frames: 4",
+              "6: camera.window_frames is 4: give a whole number from 5 to 1000"},
+        Wrong{"time_offset_s: -0.004", "time_offset_s: -4",
+              "7: camera.time_offset_s is -4: give a number from -1 to 1"},
+        Wrong{"velocity_sigma_m_s: 0.05", "velocity_sigma_m_s: 0",
+              "17: odometry.velocity_sigma_m_s is 0: give a number above 0 and up to 5"},
+        Wrong{"position_m: [1.4, 0, 0.08], ", "", "20: fork has no \"position_m\": add it"},
+        Wrong{"tolerance_m: 0.2", "tolerance_m: 0", "21: floor.tolerance_m is 0: give a number above 0 and up to 10"},
+        Wrong{"{name: t7}", "{}", "1: vehicle has no \"name\": add it"},
+        Wrong{"odometry:", "imu: {}\nodometry:", "16: key \"imu\" is there twice (first on line 11): keep one"}));
 
 TEST(Vehicle, lists_all_faults_at_once) {
   const auto vehicle = parse_vehicle("camera: {rate_hz: x, mains_hz: 1}\nimu: 3\nwheels: 4\n", "v.yaml");
