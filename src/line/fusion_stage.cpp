@@ -1,34 +1,66 @@
 #include "lodestar/line/fusion_stage.hpp"
 
+#include <utility>
+
 #include "lodestar/line/pose_stage.hpp"
 
 namespace lodestar {
 
-FusionStage::FusionStage(const PoseFilterParams& filter, double calibration_sigma_px, bool use_sightings)
-    : filter_(filter), calibration_sigma_px_(calibration_sigma_px), use_sightings_(use_sightings) {}
+FusionStage::FusionStage(const LineParams& params)
+    : filter_(params.filter),
+      places_(params),
+      calibration_sigma_px_(params.calibration_sigma_px),
+      use_sightings_(params.use_sightings) {}
 
 void FusionStage::set_camera(const CameraMount& camera) {
   camera_ = camera;
   filter_.set_camera(camera.T_base_camera);
+  places_.set_camera(camera);
 }
 
-void FusionStage::set_imu(const Eigen::Vector3d& imu_position_base) { filter_.set_imu(imu_position_base); }
-void FusionStage::set_beacons(const std::vector<Beacon>& beacons) { beacons_ = beacons; }
-void FusionStage::add_imu(const ImuSample& sample) { filter_.add_imu(sample); }
-void FusionStage::add_odometry(const OdometrySample& sample) { filter_.add_odometry(sample); }
+void FusionStage::set_imu(const Eigen::Vector3d& imu_position_base) {
+  filter_.set_imu(imu_position_base);
+  places_.set_imu(imu_position_base);
+}
+
+void FusionStage::set_beacons(const std::vector<Beacon>& beacons) {
+  beacons_ = beacons;
+  places_.set_beacons(beacons);
+}
+
+void FusionStage::add_imu(const ImuSample& sample) {
+  filter_.add_imu(sample);
+  places_.add_imu(sample);
+}
+
+void FusionStage::add_odometry(const OdometrySample& sample) {
+  filter_.add_odometry(sample);
+  places_.add_odometry(sample);
+}
+
+bool FusionStage::running() const {
+  return filter_.mode() == FilterMode::kTracking || filter_.mode() == FilterMode::kCoasting;
+}
 
 void FusionStage::add_sightings(const Sightings& sightings) {
   if (!use_sightings_ || !camera_.model) return;
+  if (!running()) {
+    if (auto found = places_.add_sightings(sightings)) filter_ = std::move(*found);
+    return;
+  }
   const BeaconBearings named = bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
 }
 
 void FusionStage::add_fix(const Fix& fix) {
-  const bool running = filter_.mode() == FilterMode::kTracking || filter_.mode() == FilterMode::kCoasting;
-  if (use_sightings_ && running) return;
+  if (use_sightings_ && running()) return;
   filter_.add_fix(fix);
+  places_.close();
 }
 
-void FusionStage::reset() { filter_.reset(); }
+void FusionStage::reset() {
+  filter_.reset();
+  places_.reset();
+}
 
 }  // namespace lodestar

@@ -31,18 +31,27 @@ void PoseStage::set_beacons(const std::vector<Beacon>& beacons) { beacons_ = bea
 void PoseStage::add_imu(const ImuSample& sample) { tilt_.add_imu(sample); }
 void PoseStage::add_odometry(const OdometrySample& sample) { tilt_.add_odometry(sample); }
 
+template <class Solve>
+auto PoseStage::with_tilt(const Sightings& sightings, Solve&& solve) const
+    -> decltype(solve(BeaconBearings{}, Tilt{})) {
+  if (!camera_.model) return NoFix::kNoCamera;
+  const auto tilt = tilt_.tilt();
+  if (!tilt) return NoFix::kNoTilt;
+  return solve(bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_), *tilt);
+}
+
 Result<Fix, NoFix> PoseStage::process(const Sightings& sightings) {
-  auto result = solve(sightings);
+  auto result = with_tilt(sightings, [&](const BeaconBearings& bearings, const Tilt& tilt) {
+    return solver_.solve(bearings, tilt, camera_.T_base_camera);
+  });
   if (!result) refusals_.add(result.error());
   return result;
 }
 
-Result<Fix, NoFix> PoseStage::solve(const Sightings& sightings) const {
-  if (!camera_.model) return NoFix::kNoCamera;
-  const auto tilt = tilt_.tilt();
-  if (!tilt) return NoFix::kNoTilt;
-  return solver_.solve(bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_), *tilt,
-                       camera_.T_base_camera);
+Result<PoseSolutions, NoFix> PoseStage::solutions(const Sightings& sightings) const {
+  return with_tilt(sightings, [&](const BeaconBearings& bearings, const Tilt& tilt) {
+    return solver_.solutions(bearings, tilt, camera_.T_base_camera);
+  });
 }
 
 void PoseStage::reset() { tilt_.reset(); }

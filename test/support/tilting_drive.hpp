@@ -63,13 +63,16 @@ class TiltingDrive {
   OdometrySample odometry(double t_s) {
     OdometrySample sample;
     sample.stamp = stamp(t_s);
-    sample.velocity_m_s << (1 + scale_) * speed_m_s(t_s) + random_.normal(params_.odometry_velocity_sigma_m_s),
+    const double slip = slip_s2 * slope([this](double t) { return speed_m_s(t); }, t_s);
+    sample.velocity_m_s << (1 + scale_ + slip) * speed_m_s(t_s) + random_.normal(params_.odometry_velocity_sigma_m_s),
         random_.normal(params_.odometry_velocity_sigma_m_s);
     sample.yaw_rate_rad_s = yaw_rate_rad_s(t_s) + random_.normal(params_.odometry_yaw_rate_sigma_rad_s);
     return sample;
   }
 
   Eigen::Vector3d imu_position_base = Eigen::Vector3d::Zero();
+
+  double slip_s2 = 0;  ///< of the tyres, relative, by acceleration (m/s^2)
 
   static Stamp stamp(double t_s) { return Stamp(std::chrono::seconds(1000) + from_seconds(t_s)); }
 

@@ -9,14 +9,17 @@
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/estimation/fusion/pose_filter.hpp"
 #include "lodestar/line/camera_mount.hpp"
+#include "lodestar/line/line_params.hpp"
+#include "lodestar/line/place_hypotheses.hpp"
 
 namespace lodestar {
 
 /// Fixes, sightings and motion in, the filtered pose out. Fixes start the filter (and restart it after a loss);
-/// sightings correct it while it runs; with `use_sightings` off, fixes do both.
+/// sightings correct it while it runs; with `use_sightings` off, fixes do both. Where sightings leave several places
+/// open, and so make no fix, each is followed until one is left, and the filter starts there.
 class FusionStage {
  public:
-  FusionStage(const PoseFilterParams& filter, double calibration_sigma_px, bool use_sightings);
+  explicit FusionStage(const LineParams& params);
 
   void set_camera(const CameraMount& camera);
   /// Where the inertial sensor sits, in base_link (m).
@@ -29,10 +32,14 @@ class FusionStage {
   void add_fix(const Fix& fix);
 
   const PoseFilter& filter() const { return filter_; }
+  const PlaceHypotheses& places() const { return places_; }
   void reset();
 
  private:
+  bool running() const;
+
   PoseFilter filter_;
+  PlaceHypotheses places_;
   double calibration_sigma_px_;
   bool use_sightings_;
   CameraMount camera_;

@@ -5,28 +5,12 @@
 #include "lodestar/base/measurement/ir_frame.hpp"
 #include "lodestar/line/detection_stage.hpp"
 #include "lodestar/line/fusion_stage.hpp"
+#include "lodestar/line/line_params.hpp"
 #include "lodestar/line/pose_stage.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 
 namespace lodestar {
-
-/// What one stage of the line needs of site, vehicle and camera rate. Every program that runs a stage, nodelet or tool,
-/// takes its parameters from here, so that all of them do the same.
-struct LineParams {
-  BeaconDetectorParams detector;
-  BeaconNamerParams namer;
-  PoseSolverParams solver;
-  TiltFilterParams tilt;
-  PoseFilterParams filter;
-  double calibration_sigma_px = 0.3;
-  bool use_sightings = true;  ///< tightly coupled; off: the filter is fed with fixes alone
-  Duration heard_for{};       ///< how long after its announcement a beacon counts as heard
-};
-
-/// @param frame_rate_hz of the camera, for the detector's window where neither file fixes it; none for who runs other
-/// stages alone
-LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz = std::nullopt);
 
 /// The whole optical line in one object, for replay and simulation: the same stages that the nodelets run.
 /// Calls come in the order of reception.

@@ -34,11 +34,16 @@ class PoseStage {
   /// The pose of base_link at the sightings' stamp, or why there is none.
   Result<Fix, NoFix> process(const Sightings& sightings);
 
+  /// All poses that these names leave open, or why there is none.
+  Result<PoseSolutions, NoFix> solutions(const Sightings& sightings) const;
+
   void reset();
   const DropCounts<NoFix>& refusals() const { return refusals_; }
 
  private:
-  Result<Fix, NoFix> solve(const Sightings& sightings) const;
+  /// Calls solve(bearings, tilt) when camera and gravity are known.
+  template <class Solve>
+  auto with_tilt(const Sightings& sightings, Solve&& solve) const -> decltype(solve(BeaconBearings{}, Tilt{}));
 
   PoseSolver solver_;
   TiltFilter tilt_;

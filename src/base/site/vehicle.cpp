@@ -8,12 +8,13 @@ namespace lodestar {
 
 namespace {
 
-const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false}, {"imu", false},    {"odometry", false},
-                                        {"infrared", false}, {"fork", false},   {"pallets", false}};
+const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false}, {"imu", false},     {"odometry", false},
+                                        {"infrared", false}, {"fork", false},   {"pallets", false}, {"floor", false}};
 const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
 const std::vector<YamlKey> kForkKeys = {
     {"mount", false}, {"height_sigma_m", false}, {"seat_sigma_m", false}, {"seat_sigma_deg", false}};
 const std::vector<YamlKey> kPalletKeys = {{"type", true}, {"length_m", true}, {"width_m", true}, {"deck_m", false}};
+const std::vector<YamlKey> kFloorKeys = {{"z_m", true}, {"tolerance_m", false}};
 const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
 const std::vector<YamlKey> kCameraKeys = {
     {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false},  {"window_frames", false},
@@ -110,6 +111,13 @@ void read_pallets(const YamlMap& file, FaultLog& faults, Vehicle& vehicle) {
   }
 }
 
+FloorHeight read_floor(const YamlMap& map) {
+  FloorHeight floor;
+  read(map, "z_m", within(-1000, 1000), floor.z_m);
+  read(map, "tolerance_m", above(0, 10), floor.tolerance_m);
+  return floor;
+}
+
 Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
   Vehicle vehicle;
@@ -119,6 +127,7 @@ Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   read_odometry(file.section("odometry", kOdometryKeys), vehicle);
   read_fork(file.section("fork", kForkKeys), vehicle);
   read_pallets(file, faults, vehicle);
+  if (file.has("floor")) vehicle.floor = read_floor(file.section("floor", kFloorKeys));
   vehicle.has_ir_receiver = file.section("infrared", kInfraredKeys).boolean("receiver").value_or(true);
   return vehicle;
 }

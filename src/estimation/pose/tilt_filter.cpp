@@ -16,6 +16,7 @@ constexpr double kMaxAcceleration_m_s2 = 2.0;  ///< of the vehicle; what a late 
 constexpr double kOldOdometry_s = 0.2;         ///< later than this it is not used
 constexpr double kCreepEvery_s = 1.0;
 constexpr double kCreepSigma_m_s = 1.0;
+constexpr double kPull_s = 0.5;  ///< how long tyres slip in one way
 constexpr double kStandingSpeed_m_s = 0.02, kStandingTurn_rad_s = 0.02;
 /// One sigma of the vehicle's acceleration during the first samples: driving, and without wheels to ask.
 constexpr double kStartDriving_m_s2 = 2.0, kStartUnknown_m_s2 = 0.3;
@@ -162,19 +163,28 @@ void TiltFilter::take_pending_odometry() {
   }
 }
 
+/// One sigma of what the tyres slip, along and across. It lasts as long as the pull: no noise that averages out.
+Eigen::Vector2d TiltFilter::slip_m_s(const OdometrySample& sample, const Eigen::Vector3d& turn_rad_s) const {
+  const double speed = sample.velocity_m_s.norm();
+  const double along = imu_->specific_force_m_s2.x() + kGravity_m_s2 * std::sin(x_(kPitch));
+  return speed * Eigen::Vector2d(params_.slip_s2 * along, params_.sideslip_s2 * speed * turn_rad_s.z());
+}
+
 void TiltFilter::correct_by_odometry(const OdometrySample& sample) {
   const double age_s = seconds(imu_->stamp - sample.stamp);
   if (age_s > kOldOdometry_s) return;
-  const double variance = square(params_.odometry_velocity_sigma_m_s) + square(kMaxAcceleration_m_s2 * age_s);
-  const Eigen::Vector2d lever =
-      imu_over_base_m_s(imu_->angular_velocity_rad_s - Eigen::Vector3d(x_.segment<3>(kGyroX)));
+  const Eigen::Vector3d turn = imu_->angular_velocity_rad_s - Eigen::Vector3d(x_.segment<3>(kGyroX));
+  const Eigen::Vector2d lever = imu_over_base_m_s(turn);
+  const double noise = square(params_.odometry_velocity_sigma_m_s) + square(kMaxAcceleration_m_s2 * age_s);
+  const Eigen::Vector2d slip = slip_m_s(sample, turn);
+  const double lasting = std::max(1.0, kPull_s / std::max(seconds(imu_->stamp - speed_known_), 1e-3));
   for (int axis = 0; axis < 2; ++axis) {
     const int velocity = kVelocityX + axis;
     const double base_m_s = x_(velocity) - lever(axis);
     Vector h = Vector::Zero();
     h(velocity) = 1 + x_(kScale);
     h(kScale) = base_m_s;
-    correct(h, sample.velocity_m_s(axis) - (1 + x_(kScale)) * base_m_s, variance);
+    correct(h, sample.velocity_m_s(axis) - (1 + x_(kScale)) * base_m_s, noise + lasting * square(slip(axis)));
   }
   Vector h = Vector::Zero();
   h(kGyroZ) = -1;

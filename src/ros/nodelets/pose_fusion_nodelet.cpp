@@ -75,7 +75,8 @@ void PoseFusionNodelet::make_stage() {
   LineParams params = line_params(edge_->site(), edge_->vehicle());
   params.filter.fix_systematic_share = fix_systematic_share_;
   params.filter.camera_time_offset_sigma_s = camera_time_offset_sigma_s_;
-  stage_ = std::make_unique<FusionStage>(params.filter, params.calibration_sigma_px, use_sightings_);
+  params.use_sightings = use_sightings_;
+  stage_ = std::make_unique<FusionStage>(params);
   slew_ = std::make_unique<PoseSlew>(slew_m_s_, slew_rad_s_);
 }
 
@@ -148,6 +149,8 @@ void PoseFusionNodelet::report(Health::Status& status) {
     status.addf("protection_level_m", "%.3f", *stage_->filter().protection_level_m());
     status.addf("camera_time_offset_s", "%.4f", *stage_->filter().camera_time_offset_s());
   }
+  status.add("places open", stage_->places().open());
+  stage_->places().drops().each([&](const char* reason, std::uint64_t count) { status.add(reason, count); });
   report_liars(status);
   stage_->filter().drops().each(
       [&](const char* reason, std::uint64_t count) { status.add(std::string("not used: ") + reason, count); });

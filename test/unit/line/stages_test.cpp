@@ -63,11 +63,14 @@ TEST(LineParams, TakeTheWindowFromVehicleOrTonesAndTheNoiseFromTheVehicle) {
   vehicle.window_frames = 20;
   vehicle.gyro_noise_rad_s = 0.0123;
   vehicle.has_ir_receiver = false;
+  vehicle.floor = FloorHeight{1.5, 0.2};
   const LineParams params = line_params(site, vehicle, 25);
   EXPECT_EQ(params.detector.window_frames, 20);
   EXPECT_EQ(params.tilt.gyro_noise_rad_s, 0.0123);
   EXPECT_EQ(params.filter.gyro_noise_rad_s, 0.0123);
   EXPECT_FALSE(params.namer.require_announcement);
+  EXPECT_EQ(params.solver.floor_z_m, 1.5);
+  EXPECT_EQ(params.solver.floor_tolerance_m, 0.2);
 }
 
 TEST(LocalizationLine, WithoutACameraImagesAreDroppedAndCounted) {

@@ -11,6 +11,12 @@
 
 namespace lodestar {
 
+/// How high base_link is in map while the vehicle stands on the floor.
+struct FloorHeight {
+  double z_m = 0;
+  double tolerance_m = 0.3;
+};
+
 /// What hangs on the forklift and how well it is known. Defaults suit an industrial truck; a vehicle file overrides
 /// any.
 struct Vehicle {
@@ -32,6 +38,7 @@ struct Vehicle {
   double gyro_bias_rad_s = 0.005;            ///< one sigma of the turn-on bias
   double accelerometer_noise_m_s2 = 0.05;    ///< white, each sample
   double accelerometer_bias_m_s2 = 0.05;     ///< one sigma of the turn-on bias
+  std::optional<FloorHeight> floor;          ///< empty: any height
   double odometry_velocity_sigma_m_s = 0.03;
   double odometry_yaw_rate_sigma_rad_s = 0.01;
   double odometry_scale_sigma = 0.02;  ///< relative

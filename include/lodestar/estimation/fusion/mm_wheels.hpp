@@ -12,8 +12,8 @@ Eigen::Vector3d velocity_base(const CoreState& x, const Eigen::Vector3d& measure
                               const Rig& rig);
 
 /// Wheel speed: along and across with the wheels' scale, and no velocity along base_link's z (the truck stays on the
-/// floor). 3 degrees of freedom, by velocity, rotation, gyro bias (over the lever to the inertial sensor) and scale. Tyres
-/// slip the more the harder the truck accelerates along and across.
+/// floor). 3 degrees of freedom, by velocity, rotation, gyro bias (over the lever to the inertial sensor) and scale.
+/// Tyres slip the more the harder the truck accelerates along and across.
 Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample,
                                 const Eigen::Vector3d& measured_angular_velocity_rad_s,
                                 const Eigen::Vector2d& acceleration_m_s2, const Rig& rig,

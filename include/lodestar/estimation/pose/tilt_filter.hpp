@@ -17,6 +17,8 @@ struct TiltFilterParams {
   double odometry_velocity_sigma_m_s = 0.03;
   double odometry_yaw_rate_sigma_rad_s = 0.01;
   double odometry_scale_sigma = 0.02;  ///< relative
+  double slip_s2 = 0.003;              ///< relative slip (one sigma) by acceleration along the way (m/s^2)
+  double sideslip_s2 = 0.01;           ///< slip angle (one sigma, rad) by acceleration across the way (m/s^2)
 };
 
 /// Roll and pitch from gyro and accelerometer, the vehicle's own acceleration taken off: a small EKF that also carries
@@ -53,6 +55,7 @@ class TiltFilter {
   void start_with(const ImuSample& sample);
   void predict(const ImuSample& sample, double dt_s);
   void take_pending_odometry();
+  Eigen::Vector2d slip_m_s(const OdometrySample& sample, const Eigen::Vector3d& turn_rad_s) const;
   void correct_by_odometry(const OdometrySample& sample);
   void correct_by_creeping();
   void correct(const Vector& h, double innovation, double variance);

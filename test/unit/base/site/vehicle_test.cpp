@@ -31,6 +31,7 @@ fork: {mount: {xyz_m: [1.4, 0, 0.08], rpy_deg: [0, 0, 90]}, height_sigma_m: 0.01
 pallets:
   - {type: half, length_m: 0.8, width_m: 0.6, deck_m: 0.09}
   - {type: epal, length_m: 1.2, width_m: 0.8}
+floor: {z_m: -0.5, tolerance_m: 0.2}
 )";
 
 TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
@@ -57,6 +58,9 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   EXPECT_EQ(vehicle->odometry_velocity_sigma_m_s, 0.05);
   EXPECT_NEAR(vehicle->odometry_yaw_rate_sigma_rad_s, radians(1), 1e-15);
   EXPECT_EQ(vehicle->odometry_scale_sigma, 0.03);
+  ASSERT_TRUE(vehicle->floor);
+  EXPECT_EQ(vehicle->floor->z_m, -0.5);
+  EXPECT_EQ(vehicle->floor->tolerance_m, 0.2);
   ASSERT_TRUE(vehicle->T_base_fork);
   EXPECT_EQ(vehicle->T_base_fork->translation(), Eigen::Vector3d(1.4, 0, 0.08));
   EXPECT_NEAR(roll_pitch_yaw(vehicle->T_base_fork->linear()).yaw_rad, radians(90), 1e-12);
@@ -88,6 +92,7 @@ TEST(Vehicle, what_is_left_out_keeps_its_default) {
   EXPECT_EQ(vehicle->pallets[0].type, "epal");
   EXPECT_EQ(vehicle->pallets[0].size_m, Eigen::Vector2d(1.2, 0.8));
   EXPECT_EQ(vehicle->pallets[1].size_m, Eigen::Vector2d(1.2, 1.0));
+  EXPECT_FALSE(vehicle->floor);
   EXPECT_FALSE(vehicle->window_frames);
   EXPECT_FALSE(vehicle->camera_rate_hz);
   EXPECT_EQ(vehicle->camera_mount_sigma_rad, defaults.camera_mount_sigma_rad);
@@ -130,6 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"seat_sigma_m: 0.02", "seat_sigma_m: 0", "20: fork.seat_sigma_m is 0: give a number above 0 and up to 1"},
         Wrong{"type: half", "type: epal", "23: pallets[1].type \"epal\" is there twice: give each its own name"},
         Wrong{"length_m: 0.8, ", "", "22: pallets[0] has no \"length_m\": add it"},
+        Wrong{"tolerance_m: 0.2", "tolerance_m: 0", "24: floor.tolerance_m is 0: give a number above 0 and up to 10"},
         Wrong{"{name: t7}", "{}", "1: vehicle has no \"name\": add it"},
         Wrong{"odometry:", "imu: {}\nodometry:", "16: key \"imu\" is there twice (first on line 11): keep one"}));
 

@@ -24,6 +24,7 @@ TiltFilterParams almost_perfect() {
   params.odometry_velocity_sigma_m_s = 1e-3;
   params.odometry_yaw_rate_sigma_rad_s = 1e-3;
   params.odometry_scale_sigma = 1e-4;
+  params.slip_s2 = params.sideslip_s2 = 0;
   return params;
 }
 
@@ -96,6 +97,17 @@ TEST(TiltFilter, DrivingWithOrdinarySensors) {
       }
     });
   }
+}
+
+TEST(TiltFilter, TyresThatSlipDoNotTiltTheTruck) {
+  TiltFilter filter({});
+  TiltingDrive truth(3, almost_perfect(), 5, 0.01);
+  truth.slip_s2 = 0.005;
+  double worst = 0;
+  drive(filter, truth, 0, 40, [&](double t_s) {
+    if (t_s > 1) worst = std::fmax(worst, error_rad(filter, truth, t_s));
+  });
+  EXPECT_LT(worst, 0.005);  // wheels that are believed: 0.007
 }
 
 TEST(TiltFilter, SensorFarFromBaseLink) {
