@@ -14,7 +14,6 @@ constexpr double kFirstSigmaPx = 0.7;   ///< of a cell's centre
 constexpr double kFirstSpeedPxS = 500;  ///< one sigma, beside the prediction
 constexpr int kLookBackFrames = 8;      ///< at a time; each 4 hits the velocity is known better
 constexpr int kLookBackHits = 16;
-constexpr int kUnreadPatience = 3;
 constexpr float kBirthSigmas = 12;  ///< of one frame's light; fainter blobs show at rest, by their energy
 constexpr int kHiddenWindows = 5;   ///< how long a hidden beacon is waited for
 
@@ -108,8 +107,10 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
     look_back(track, window, motion, noise);
 
   const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;
-  // At rest, what was read once may be too faint for a frame; what never was is only in the way.
-  if (track.path().still()) return track.unseen_frames() <= (track.code.empty() ? kUnreadPatience : patience);
+  // At rest, what was read once may be too faint for a frame. What never was is soon only in the way; it may have begun
+  // to shine within the window.
+  const int unread_patience = std::max(3, window_frames_ / 6);
+  if (track.path().still()) return track.unseen_frames() <= (track.code.empty() ? unread_patience : patience);
   // One hit says nothing of the way; the dark half of an on-off beacon is bridged from the second on.
   const int known_for = track.hits() == 1 ? 1 : 3 * track.hits();
   return track.unseen_frames() <= std::min(patience, known_for);
