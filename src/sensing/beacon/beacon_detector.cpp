@@ -180,7 +180,7 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
                          static_cast<float>(params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0))};
   // What was not used while the window filled up, or the image moved, is there for what waits.
   searches_left_ = std::min(searches_left_ + scan_.budget(), params_.window_frames * scan_.budget());
-  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, noise);
+  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, !camera_motion.known(), noise);
 
   Sightings result = std::move(reuse);
   result.stamp = image.stamp;
