@@ -16,7 +16,7 @@ constexpr float kFirstLimit = 4.5f;  ///< of a spot's energy, sigmas
 constexpr float kLeastLimit = 2.5f;
 constexpr float kPeakShare = 0.75f;                       ///< of the limit, that the spot's strongest cell must reach
 constexpr float kExcessForgets = 0.005f;                  ///< a frame, of what a passing disturbance has raised
-constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< what a cell without a find adds: a share, and at least
+constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain adds: a share, and at least
 constexpr int kNoiseSample = 256;                         ///< cells a frame
 constexpr double kNoiseForgets = 1.0 / 16;
 constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
@@ -243,14 +243,13 @@ void ChangeScan::settle(const Eigen::Vector2i& pixel, bool found) {
   } else {
     calm(wide_, cell);
   }
-  if (!found) defer(pixel);
-}
-
-void ChangeScan::defer(const Eigen::Vector2i& pixel) {
+  if (found) return;
   // What raises it by a share and sinks by a share costs the same however high: a tenth of a search a frame.
   float& limit = tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)];
   limit += kLimitStep + kExcessStep * std::max(0.0f, limit - kFirstLimit);
 }
+
+void ChangeScan::defer(const Eigen::Vector2i& pixel) { tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)] += kLimitStep; }
 
 template <class Lane>
 void ChangeScan::calm(Planes<Lane>& planes, const Eigen::Vector2i& cell) {
