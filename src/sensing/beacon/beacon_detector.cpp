@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "lodestar/base/common/angle.hpp"
@@ -68,6 +69,10 @@ std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
   if (!image.data || image.width_px < Patch::kSide || image.height_px < Patch::kSide) return FrameDrop::kNoPixels;
   if (image.bits != 8 && image.bits != 16) return FrameDrop::kFormat;
   if (image.stride_bytes < static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.bits / 8)) {
+    return FrameDrop::kFormat;
+  }
+  // Pixels of two bytes are read as such: rows begin at even addresses.
+  if (image.bits == 16 && (reinterpret_cast<std::uintptr_t>(image.data) | image.stride_bytes) % 2 != 0) {
     return FrameDrop::kFormat;
   }
   if (image.width_px != camera_->intrinsics().width_px || image.height_px != camera_->intrinsics().height_px) {
@@ -180,7 +185,7 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
                          static_cast<float>(params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0))};
   // What was not used while the window filled up, or the image moved, is there for what waits.
   searches_left_ = std::min(searches_left_ + scan_.budget(), params_.window_frames * scan_.budget());
-  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, noise);
+  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, !camera_motion.known(), noise);
 
   Sightings result = std::move(reuse);
   result.stamp = image.stamp;

@@ -116,19 +116,23 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   }
   unseen_ = 0;
   ++hits_;
+  seen_at_ = pixel;
+  seen_variance_ = variance * filter_.shift_variance() / (static_cast<double>(light.flux) * light.flux);
+  return Look::kSeen;
+}
+
+void BlobTrack::take(const FrameWindow& window, const PixelNoise& noise) {
+  path_.update(seen_at_, seen_variance_);
   const float before = shape_.clipped_radius_px;
-  path_.update(pixel, variance * filter_.shift_variance() / (static_cast<double>(light.flux) * light.flux));
-  if (reshape(noise.dark_variance)) {
-    if (path_.still()) {
-      read_window(window, frames_, noise);
-    } else if (shape_.clipped_radius_px != before) {
-      for (int older = frames_ - 1; older >= 0; --older) {
-        const int at = window.slot(older);
-        look_back(window, older, places_[static_cast<std::size_t>(at)], noise);
-      }
+  if (!reshape(noise.dark_variance)) return;
+  if (path_.still()) {
+    read_window(window, frames_, noise);
+  } else if (shape_.clipped_radius_px != before) {
+    for (int older = frames_ - 1; older >= 0; --older) {
+      const int at = window.slot(older);
+      look_back(window, older, places_[static_cast<std::size_t>(at)], noise);
     }
   }
-  return Look::kSeen;
 }
 
 bool BlobTrack::reshape(double dark_variance) {

@@ -12,9 +12,10 @@ constexpr int kYoungHits = 4;  ///< until then a blob is looked for among all ch
 constexpr double kMaxYoungGatePx = 20;
 constexpr double kFirstSigmaPx = 0.7;   ///< of a cell's centre
 constexpr double kFirstSpeedPxS = 500;  ///< one sigma, beside the prediction
+constexpr double kKnownSpeedPxS = 60;   ///< ... where other blobs say how the image moves
+constexpr double kHeightShare = 0.15;   ///< of the image's motion, by which heights make a blob's differ; one sigma
 constexpr int kLookBackFrames = 8;      ///< at a time; each 4 hits the velocity is known better
 constexpr int kLookBackHits = 16;
-constexpr int kUnreadPatience = 3;
 constexpr float kBirthSigmas = 12;  ///< of one frame's light; fainter blobs show at rest, by their energy
 constexpr int kHiddenWindows = 5;   ///< how long a hidden beacon is waited for
 
@@ -25,10 +26,10 @@ Eigen::Vector2d middle(const ChangeScan::Change& change) {
 
 bool is_known(const BlobTrack& track) { return track.path().still() || !track.code.empty(); }
 
-/// Whether what changes at `pixel` is the blob's doing; one that clips is seen far around.
-bool is_near(const BlobTrack& track, const Eigen::Vector2d& pixel) {
+/// Whether what changes at `pixel` is the doing of the blob at `place`; one that clips is seen far around.
+bool is_near(const BlobTrack& track, const Eigen::Vector2d& place, const Eigen::Vector2d& pixel) {
   const double reach = kCoverPx + 1.5 * static_cast<double>(track.shape().clipped_radius_px);
-  return (track.path().pixel() - pixel).squaredNorm() < reach * reach;
+  return (place - pixel).squaredNorm() < reach * reach;
 }
 
 }  // namespace
@@ -36,7 +37,13 @@ bool is_near(const BlobTrack& track, const Eigen::Vector2d& pixel) {
 BlobTracker::BlobTracker(int window_frames, int max_blobs)
     : window_frames_(window_frames),
       tracks_(static_cast<std::size_t>(max_blobs),
-              BlobTrack(PathFilter(Eigen::Vector2d::Zero(), window_frames), window_frames)) {}
+              BlobTrack(PathFilter(Eigen::Vector2d::Zero(), window_frames), window_frames)),
+      common_motion_(max_blobs) {}
+
+void BlobTracker::clear() {
+  count_ = 0;
+  common_motion_.forget();
+}
 
 template <class Keep>
 void BlobTracker::keep_if(Keep&& keep) {
@@ -50,16 +57,20 @@ void BlobTracker::keep_if(Keep&& keep) {
 }
 
 bool BlobTracker::covers(const Eigen::Vector2d& pixel) const {
-  return std::any_of(begin(), end(), [&](const BlobTrack& track) { return is_known(track) && is_near(track, pixel); });
+  return std::any_of(begin(), end(), [&](const BlobTrack& track) {
+    return is_known(track) && is_near(track, track.path().pixel(), pixel);
+  });
 }
 
 bool BlobTracker::suspects(const Eigen::Vector2d& pixel) const {
-  return std::any_of(begin(), end(), [&](const BlobTrack& track) { return !is_known(track) && is_near(track, pixel); });
+  return std::any_of(begin(), end(), [&](const BlobTrack& track) {
+    return !is_known(track) && is_near(track, track.path().pixel(), pixel);
+  });
 }
 
 void BlobTracker::drop_suspects_of_last() {
   const Eigen::Vector2d pixel = tracks_[count_ - 1].path().pixel();
-  keep_if([&](const BlobTrack& track) { return is_known(track) || !is_near(track, pixel); });
+  keep_if([&](const BlobTrack& track) { return is_known(track) || !is_near(track, track.path().pixel(), pixel); });
 }
 
 BlobTrack* BlobTracker::start_still(const Eigen::Vector2d& pixel, double variance) {
@@ -70,8 +81,8 @@ BlobTrack* BlobTracker::start_still(const Eigen::Vector2d& pixel, double varianc
   return &tracks_[count_++];
 }
 
-bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const Changes& risen,
-                             const ImageMotion& motion, const PixelNoise& noise) {
+bool BlobTracker::look_for(BlobTrack& track, const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
+                           const PixelNoise& noise) {
   const int slot = window.newest();
   const RigidTransform& T_before_now = window.T_before_now(slot);
   Eigen::Vector2d predicted = track.path().pixel();
@@ -80,7 +91,7 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
     if (!moved) return false;
     predicted = *moved;
   }
-  track.predict(predicted, seconds(window.at(slot).stamp - window.at(window.slot(1)).stamp));
+  track.predict(predicted, window.interval_s(slot));
 
   Eigen::Vector2d place = track.path().pixel();
   const bool young = !track.path().still() && track.hits() < kYoungHits;
@@ -98,18 +109,24 @@ bool BlobTracker::follow_one(BlobTrack& track, const FrameWindow& window, const 
     }
     if (best < risen.size()) place = middle(risen[best]);
   }
+  return track.look(window, place, noise) != BlobTrack::Look::kOutside;
+}
+
+bool BlobTracker::take(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion,
+                       const PixelNoise& noise) {
   const bool was_still = track.path().still();
-  const auto look = track.look(window, place, noise);
-  if (look == BlobTrack::Look::kOutside || !motion.camera->contains(track.path().pixel())) return false;
+  if (track.seen()) track.take(window, noise);
+  if (!motion.camera->contains(track.path().pixel())) return false;
   // What has come to rest, or is just known, was there before: its window need not fill up from now on.
   const bool rests = !was_still && track.path().still() && !track.hidden;
   const bool better_known = !track.path().still() && track.hits() % kYoungHits == 0 && track.hits() <= kLookBackHits;
-  if (rests || (look == BlobTrack::Look::kSeen && better_known && !track.hidden))
-    look_back(track, window, motion, noise);
+  if (rests || (track.seen() && better_known && !track.hidden)) look_back(track, window, motion, noise);
 
   const int patience = track.hidden ? kHiddenWindows * window_frames_ : window_frames_ / 2;
-  // At rest, what was read once may be too faint for a frame; what never was is only in the way.
-  if (track.path().still()) return track.unseen_frames() <= (track.code.empty() ? kUnreadPatience : patience);
+  // At rest, what was read once may be too faint for a frame. What never was is soon only in the way; it may have begun
+  // to shine within the window.
+  const int unread_patience = std::max(3, window_frames_ / 6);
+  if (track.path().still()) return track.unseen_frames() <= (track.code.empty() ? unread_patience : patience);
   // One hit says nothing of the way; the dark half of an on-off beacon is bridged from the second on.
   const int known_for = track.hits() == 1 ? 1 : 3 * track.hits();
   return track.unseen_frames() <= std::min(patience, known_for);
@@ -125,8 +142,8 @@ void BlobTracker::look_back(BlobTrack& track, const FrameWindow& window, const I
   const Eigen::Vector2d velocity = track.path().velocity_px_s();
   const int known = track.frames(), reach = std::min(window.size(), known + kLookBackFrames);
   for (int age = 1; age < reach; ++age) {
-    const int slot = window.slot(age), after = window.slot(age - 1);
-    place -= velocity * seconds(window.at(after).stamp - window.at(slot).stamp);
+    const int after = window.slot(age - 1);
+    place -= velocity * window.interval_s(after);
     const auto before = motion.pixel_from(place, window.T_before_now(after));
     if (!before) return;
     place = *before;
@@ -134,21 +151,26 @@ void BlobTracker::look_back(BlobTrack& track, const FrameWindow& window, const I
   }
 }
 
-void BlobTracker::follow(const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
+void BlobTracker::follow(FrameWindow& window, const Changes& risen, const ImageMotion& motion, bool alone,
                          const PixelNoise& noise) {
+  if (!alone) common_motion_.forget();
+  common_motion_.predict(window, motion);
   taken_.assign(risen.size(), false);
   const auto mark = [&](const BlobTrack& track) {
     for (std::size_t i = 0; i < risen.size(); ++i)
-      if (is_near(track, middle(risen[i]))) taken_[i] = true;
+      if (is_near(track, track.seen() ? track.seen_at() : track.path().pixel(), middle(risen[i]))) taken_[i] = true;
   };
   // The order is that of age, and kept: what old ones explain does not tempt the young.
   keep_if([&](BlobTrack& track) {
-    if (!follow_one(track, window, risen, motion, noise)) return false;
+    if (!look_for(track, window, risen, motion, noise)) return false;
     mark(track);
     return true;
   });
+  common_motion_.refine(tracks_, count_, window, motion);
+  keep_if([&](BlobTrack& track) { return take(track, window, motion, noise); });
+  if (alone) common_motion_.learn(tracks_, count_, window, motion);
   drop_twins();
-  begin_new(window, risen, noise);
+  begin_new(window, risen, motion, noise);
 }
 
 void BlobTracker::drop_twins() {
@@ -162,16 +184,21 @@ void BlobTracker::drop_twins() {
   });
 }
 
-void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, const PixelNoise& noise) {
+void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
+                            const PixelNoise& noise) {
   for (std::size_t i = 0; i < risen.size() && count_ < tracks_.size(); ++i) {
     if (taken_[i]) continue;
     PathFilter path(middle(risen[i]), window_frames_);
-    path.start_moving(kFirstSigmaPx * kFirstSigmaPx, kFirstSpeedPxS);
+    const double speed_px_s = common_motion_.known()
+                                  ? kKnownSpeedPxS + kHeightShare * common_motion_.flow(path.pixel(), motion).norm()
+                                  : kFirstSpeedPxS;
+    path.start_moving(kFirstSigmaPx * kFirstSigmaPx, speed_px_s);
     BlobTrack& track = tracks_[count_];
     track.restart(path);
     if (track.look(window, path.pixel(), noise) != BlobTrack::Look::kSeen) continue;
     const double variance = noise.dark_variance * track.filter().flux_variance();
     if (track.flux()[window.newest()] < kBirthSigmas * std::sqrt(variance)) continue;
+    track.take(window, noise);
     if (covers(track.path().pixel()) || suspects(track.path().pixel())) continue;
     ++count_;
   }

@@ -54,7 +54,7 @@ RigidTransform CameraMotion::T_base_before_base_after(Stamp before, Stamp after)
 
 RigidTransform CameraMotion::T_then_now(Stamp then, Stamp now) const {
   constexpr double kMaxStep_s = 0.02;
-  if (angular_.empty() && yaw_.empty()) return RigidTransform::Identity();
+  if (!known()) return RigidTransform::Identity();
   const auto steps = std::max<std::int64_t>(1, std::llround(std::ceil(seconds(now - then) / kMaxStep_s)));
   RigidTransform T_then_base_now = RigidTransform::Identity();
   for (std::int64_t i = 0; i < steps; ++i) {

@@ -12,11 +12,12 @@ constexpr int kTileRows = 16;       ///< a tile is one segment wide and 16 cells
 constexpr int kBands = 2;           ///< a row's energy is renewed in each second frame
 constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
-constexpr float kFirstLimit = 3.5f;  ///< sigmas of a cell's energy
-constexpr float kLeastLimit = 2.0f;
-constexpr float kExcessForgets = 0.001f;  ///< a frame, of what a passing disturbance has raised
-constexpr float kLimitStep = 0.05f;       ///< what one settled cell without a find adds
-constexpr int kNoiseSample = 256;         ///< cells a frame
+constexpr float kFirstLimit = 4.5f;  ///< of a spot's energy, sigmas
+constexpr float kLeastLimit = 2.5f;
+constexpr float kPeakShare = 0.75f;                       ///< of the limit, that the spot's strongest cell must reach
+constexpr float kExcessForgets = 0.005f;                  ///< a frame, of what a passing disturbance has raised
+constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain adds: a share, and at least
+constexpr int kNoiseSample = 256;                         ///< cells a frame
 constexpr double kNoiseForgets = 1.0 / 16;
 constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
 
@@ -112,7 +113,8 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
   for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
     const float excess = std::max(0.0f, tile_limit_[i] - kFirstLimit);
     tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink - kExcessForgets * excess);
-    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, energy_mean_ + tile_limit_[i] * energy_sigma_));
+    const float peak = energy_mean_ + kPeakShare * tile_limit_[i] * energy_sigma_;
+    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, peak));
   }
 
   const auto kernel = kernel_for(Lane{});
@@ -144,7 +146,7 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
   }
   ++frames_;
   if (lag == 0) {
-    std::fill(planes.energy.begin(), planes.energy.end(), Lane{0});
+    std::fill(planes.energy.begin(), planes.energy.end(), static_cast<Lane>(energy_mean_));
     return;
   }
   measure_noise(now, before);
@@ -172,6 +174,21 @@ void ChangeScan::measure_noise(const Plane<Lane>& now, const Plane<Lane>& before
   for (int i = 0; i < 20; ++i) {
     cell_variance_ = std::max(kLeastCellVariance, clipped_mean(16 * kNoiseSample, cell_variance_, next_square));
   }
+}
+
+template <class Lane>
+float ChangeScan::spot_energy(const Lane* cell, std::ptrdiff_t stride) const {
+  const auto excess = [&](std::ptrdiff_t at) { return (static_cast<float>(cell[at]) - energy_mean_) / energy_sigma_; };
+  const float alone = excess(0);
+  float most = alone;
+  for (const std::ptrdiff_t side : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}}) {
+    for (const std::ptrdiff_t end : {-stride, stride}) {
+      const float beside = excess(side), above = excess(end), across = excess(side + end);
+      most = std::max(
+          {most, (alone + std::max(beside, above)) * std::sqrt(0.5f), (alone + beside + above + across) * 0.5f});
+    }
+  }
+  return most;
 }
 
 template <class Lane>
@@ -208,8 +225,9 @@ void ChangeScan::collect(const Planes<Lane>& planes, const Plane<Lane>& now, con
         const Eigen::Vector2i pixel(2 * (segment * kSegment + c), 2 * row);
         if ((hits[c] & kFlagRisen) && is_peak(first + c, difference))
           risen_.push_back({pixel, static_cast<float>(difference(first + c)) / sigma});
-        if ((hits[c] & kFlagRestless) && is_peak(first + c, energy))
-          restless_.push_back({pixel, (static_cast<float>(energy(first + c)) - energy_mean_) / energy_sigma_});
+        if (!(hits[c] & kFlagRestless) || !is_peak(first + c, energy)) continue;
+        const float size = spot_energy(planes.energy.data() + first + c, stride);
+        if (size > tile_limit_[tile(segment * kSegment, row)]) restless_.push_back({pixel, size});
       }
     }
   }
@@ -225,7 +243,10 @@ void ChangeScan::settle(const Eigen::Vector2i& pixel, bool found) {
   } else {
     calm(wide_, cell);
   }
-  if (!found) defer(pixel);
+  if (found) return;
+  // What raises it by a share and sinks by a share costs the same however high: a tenth of a search a frame.
+  float& limit = tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)];
+  limit += kLimitStep + kExcessStep * std::max(0.0f, limit - kFirstLimit);
 }
 
 void ChangeScan::defer(const Eigen::Vector2i& pixel) { tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)] += kLimitStep; }
@@ -235,7 +256,7 @@ void ChangeScan::calm(Planes<Lane>& planes, const Eigen::Vector2i& cell) {
   for (int row = std::max(0, cell.y() - 1); row <= std::min(rows_ - 1, cell.y() + 1); ++row) {
     Lane* energy = planes.energy.data() + static_cast<std::size_t>(row * segments_) * kSegment;
     for (int column = std::max(0, cell.x() - 1); column <= std::min(columns_ - 1, cell.x() + 1); ++column)
-      energy[column] = 0;
+      energy[column] = static_cast<Lane>(energy_mean_);
   }
 }
 

@@ -13,6 +13,9 @@ namespace {
 constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
+constexpr float kDepthMargin = 1.2f;    ///< over the deepest that n equal tones can dim, rms 1 / sqrt(2 n) of the mean
+constexpr float kMaxToneError = 0.15f;  ///< of the varying light, that the tones leave
+constexpr float kMaxOnOffError = 0.2f;  ///< ... that being on or off leaves: more, where blur and edges cut it
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
@@ -25,7 +28,8 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 
 }  // namespace
 
-CodeReader::CodeReader(const CodeReaderParams& params, int slots) : params_(params), wave_(slots), weights_(slots) {}
+CodeReader::CodeReader(const CodeReaderParams& params, int slots)
+    : params_(params), wave_(slots), weights_(slots), ranks_(static_cast<std::size_t>(slots)) {}
 
 bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance) {
   constexpr double kNearThreshold = 0.7, kEnergySigmas = 8;
@@ -98,6 +102,39 @@ float CodeReader::residual_energy(const BlobTrack::Series& flux, float mean, int
   if (static_cast<float>(paused) > kMostPaused * static_cast<float>(flux.size())) return energy;
   freedom = std::max(0, freedom - paused);
   return energy - paused_energy;
+}
+
+float CodeReader::on_off_residual(const BlobTrack::Series& flux) {
+  // Ranked by the tone's phase all lit frames come first; how many they are the sampling decides.
+  constexpr int kLeastPercent = 37;
+  const auto frames = static_cast<int>(flux.size());
+  std::iota(ranks_.begin(), ranks_.end(), 0);
+  std::sort(ranks_.begin(), ranks_.end(), [&](int a, int b) { return wave_[a] > wave_[b]; });
+  const float all = flux.sum(), square = flux.square().sum();
+  float lit = 0, least = square;
+  for (int on = 1; on < frames; ++on) {
+    lit += flux[ranks_[static_cast<std::size_t>(on - 1)]];
+    if (100 * std::min(on, frames - on) < kLeastPercent * frames) continue;
+    const float dark = all - lit;
+    least =
+        std::min(least, square - lit * lit / static_cast<float>(on) - dark * dark / static_cast<float>(frames - on));
+  }
+  return least;
+}
+
+bool CodeReader::has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance) {
+  const BlobTrack::Series& flux = track.flux();
+  const auto frames = static_cast<float>(flux.size());
+  const float noise = static_cast<float>(dark_variance) * track.filter().flux_variance();
+  const float scatter = (frames + 3 * std::sqrt(2 * frames)) * noise;
+  const float light = std::max(0.0f, reading.energy - frames * noise);
+  const auto tones = static_cast<float>(reading.code.size());
+  if (tones == 1 && on_off_residual(flux) < kMaxOnOffError * light + scatter) return true;
+  const float deepest = kDepthMargin / std::sqrt(2 * tones);
+  const float rms = std::sqrt(wave_.square().mean());
+  int freedom = 0;
+  return residual_energy(flux, reading.mean, freedom) < kMaxToneError * light + scatter &&
+         rms < deepest * reading.mean + 3 * (1 + deepest) * std::sqrt(noise / frames);
 }
 
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
@@ -193,7 +230,9 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
   for (int c = 1; c < columns; c += 2)
     weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
   reading.weakest_over_noise = weakest / noise;
-  reading.explained = left <= (1 - params_.min_explained) * energy + static_cast<float>(track.frames()) * noise;
+  // Two tones of three account for two thirds: another beacon may be there now.
+  const float most_left = reading.code.size() == 1 ? static_cast<float>(1 - params_.min_explained) : kMaxToneError;
+  reading.explained = left <= most_left * energy + static_cast<float>(track.frames()) * noise;
   return reading;
 }
 
@@ -265,6 +304,7 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
     return std::nullopt;
   }
   if (reading.weakest_over_noise < power_threshold) return std::nullopt;
+  if (whole && !has_waveform(track, reading, dark_variance)) return std::nullopt;
   if (whole) {
     track.code = reading.code;
     track.hidden = false;

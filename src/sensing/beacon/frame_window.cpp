@@ -18,6 +18,10 @@ void FrameWindow::clear() {
   newest_ = -1;
 }
 
+double FrameWindow::interval_s(int slot) const {
+  return seconds(at(slot).stamp - at((slot + capacity() - 1) % capacity()).stamp);
+}
+
 double FrameWindow::period_s() const {
   if (size_ < 2) return 0;
   return seconds(at(newest_).stamp - at(slot(size_ - 1)).stamp) / (size_ - 1);

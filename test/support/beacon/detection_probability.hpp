@@ -13,6 +13,7 @@ namespace lodestar::test {
 struct DetectionTrials {
   static constexpr double kRate_hz = 25, kNoise = 2;
   int window_frames = 15;
+  int dark_frames = 0;                     ///< before the beacons are switched on; 0: the camera starts with them
   std::vector<double> tones_hz = {5, 10};  ///< the paper's
 
   /// On power over s2: one false alarm an hour over all pixels and tones of a VGA image.
@@ -48,10 +49,11 @@ struct DetectionTrials {
         places[i] += Eigen::Vector2d(scene.random().uniform(-0.5, 0.5), scene.random().uniform(-0.5, 0.5));
         const double light = amplitude / BlobScene::share(places[i], scene.psf_sigma_px, static_cast<int>(pixel.x()),
                                                           static_cast<int>(pixel.y()));
-        scene.lights.push_back(
-            {at(places[i].x(), places[i].y()), beacon(scene.random(), light, {tones_hz[i % tones_hz.size()]}, false)});
+        const auto shine = beacon(scene.random(), light, {tones_hz[i % tones_hz.size()]}, false);
+        const double on_s = (dark_frames - 0.5) / kRate_hz;
+        scene.lights.push_back({at(places[i].x(), places[i].y()), [=](double t) { return t < on_s ? 0.0 : shine(t); }});
       }
-      const auto seen = stare(scene, params, window_frames + 5, kRate_hz);
+      const auto seen = stare(scene, params, dark_frames + window_frames + 5, kRate_hz);
       for (std::size_t i = 0; i < places.size(); ++i, ++count) {
         const Sighting* sighting = nearest(seen, places[i]);
         found += sighting && sighting->tones == ToneSet{static_cast<int>(i % tones_hz.size())};

@@ -33,7 +33,7 @@ struct BeaconDetectorParams {
 enum class FrameDrop {
   kNoCamera,   ///< no calibration yet
   kNoPixels,   ///< no data, or smaller than one blob's patch
-  kFormat,     ///< neither 8 nor 16 bits, or a stride below the width
+  kFormat,     ///< neither 8 nor 16 bits, a stride below the width, or 16 bits at odd addresses
   kSize,       ///< not the size of the calibration
   kDuplicate,  ///< the stamp of the frame before
   kBackwards,  ///< older than the frame before

@@ -33,7 +33,11 @@ class BlobTrack {
 
   enum class Look { kSeen, kDark, kOutside };  ///< outside: of the image, or lost in a surface that clips
   /// Finds the blob in the newest frame near `place` and reads its light; what is not within the gate is not it.
+  /// Where it is seen, take() has to follow.
   Look look(const FrameWindow& window, const Eigen::Vector2d& place, const PixelNoise& noise);
+
+  /// The path takes the place where the last look saw the blob.
+  void take(const FrameWindow& window, const PixelNoise& noise);
 
   /// Reads the light of the frame `age` before the newest, at `place`. Call with ascending ages, from where frames()
   /// ends. False: outside the image.
@@ -50,6 +54,11 @@ class BlobTrack {
   int frames() const { return frames_; }
   int hits() const { return hits_; }
   int unseen_frames() const { return unseen_; }
+
+  bool seen() const { return unseen_ == 0; }  ///< in the newest frame
+  /// Where it was seen last, before the path took it, and the variance of that, px^2 each axis.
+  const Eigen::Vector2d& seen_at() const { return seen_at_; }
+  double seen_variance() const { return seen_variance_; }
 
   const PathFilter& path() const { return path_; }
   PathFilter& path() { return path_; }
@@ -85,6 +94,8 @@ class BlobTrack {
   bool designed_ = false;
   Eigen::Vector2d anchor_ = Eigen::Vector2d::Zero();  ///< place that the filter is made for
   Patch patch_;
+  Eigen::Vector2d seen_at_ = Eigen::Vector2d::Zero();
+  double seen_variance_ = 0;
 
   Series flux_, shift_u_, shift_v_, widening_, clipped_radius_;
   std::vector<Eigen::Vector2d> places_;

@@ -5,13 +5,15 @@
 
 #include "lodestar/sensing/beacon/blob_track.hpp"
 #include "lodestar/sensing/beacon/change_scan.hpp"
+#include "lodestar/sensing/beacon/common_motion.hpp"
 #include "lodestar/sensing/beacon/frame_window.hpp"
 #include "lodestar/sensing/beacon/image_motion.hpp"
 
 namespace lodestar {
 
-/// All blobs that are followed. The camera's motion predicts their way; what it misses, and all of it for a camera
-/// alone, each blob's own filter learns. Light that has come where nothing is followed starts a new one.
+/// All blobs that are followed. The camera's motion predicts their way; for a camera alone, the motion that most of
+/// them have in common. What that misses each blob's own filter learns. Light that has come where nothing is followed
+/// starts a new one.
 class BlobTracker {
  public:
   /// @param max_blobs tracks that are kept; their memory is taken once
@@ -19,14 +21,15 @@ class BlobTracker {
 
   /// Follows all blobs into the window's newest frame, starts those that `risen` shows, and drops those that left the
   /// image, have not been seen for long, or run along with another.
-  void follow(const FrameWindow& window, const std::vector<ChangeScan::Change>& risen, const ImageMotion& motion,
+  /// @param alone nothing else says how the camera moves: what the blobs say goes into the window
+  void follow(FrameWindow& window, const std::vector<ChangeScan::Change>& risen, const ImageMotion& motion, bool alone,
               const PixelNoise& noise);
 
   /// Starts a standing blob. Null when there is no room.
   BlobTrack* start_still(const Eigen::Vector2d& pixel, double variance);
   /// Gives up the track that was started last.
   void drop_last() { --count_; }
-  void clear() { count_ = 0; }
+  void clear();
 
   /// Whether a blob is followed there that is at rest, or has been read.
   bool covers(const Eigen::Vector2d& pixel) const;
@@ -42,9 +45,10 @@ class BlobTracker {
 
  private:
   using Changes = std::vector<ChangeScan::Change>;
-  bool follow_one(BlobTrack& track, const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
-                  const PixelNoise& noise);
-  void begin_new(const FrameWindow& window, const Changes& risen, const PixelNoise& noise);
+  bool look_for(BlobTrack& track, const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
+                const PixelNoise& noise);
+  bool take(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion, const PixelNoise& noise);
+  void begin_new(const FrameWindow& window, const Changes& risen, const ImageMotion& motion, const PixelNoise& noise);
   void look_back(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion, const PixelNoise& noise) const;
   void drop_twins();
   /// Drops the others; the order, that of age, stays.
@@ -54,6 +58,7 @@ class BlobTracker {
   int window_frames_;
   std::vector<BlobTrack> tracks_;
   std::size_t count_ = 0;
+  CommonMotion common_motion_;
   std::vector<bool> taken_;  ///< of the changes
 };
 

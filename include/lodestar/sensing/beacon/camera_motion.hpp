@@ -22,6 +22,9 @@ class CameraMotion {
   void add_odometry(const OdometrySample& sample);
   void reset();
 
+  /// Whether anything says how the camera moves.
+  bool known() const { return !angular_.empty() || !yaw_.empty(); }
+
   /// Camera coordinates at `now` to camera coordinates at `then`, then <= now. Exactly the identity where nothing is
   /// known of the motion (a camera alone).
   RigidTransform T_then_now(Stamp then, Stamp now) const;

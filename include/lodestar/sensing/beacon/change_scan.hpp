@@ -30,15 +30,16 @@ class ChangeScan {
 
   struct Change {
     Eigen::Vector2i pixel;  ///< upper left one of the cell
-    float size;             ///< in sigmas of a cell's difference (risen), or of its energy (restless)
+    float size;             ///< in sigmas of a cell's difference (risen), or of a spot's energy (restless)
   };
   /// Cells that are brighter than `lag` frames ago by 6 sigma, and more so than their neighbours.
   const std::vector<Change>& risen() const { return risen_; }
-  /// Cells whose energy passes its limit and is above their neighbours', strongest first.
+  /// Cells whose energy is above their neighbours' and, alone or with those that a spot on its border shines on, passes
+  /// the limit. Strongest first.
   const std::vector<Change>& restless() const { return restless_; }
 
-  /// Something was found at this pixel, or nothing: both set the energy around it to zero. Nothing raises the limit
-  /// of its tile, so that a restless surface (sun, shot noise of a lamp) costs no more than its share.
+  /// Something was found at this pixel, or nothing: both set the energy around it to that of noise. Nothing raises the
+  /// limit of its tile, so that a restless surface (sun, shot noise of a lamp) costs no more than its share.
   void settle(const Eigen::Vector2i& pixel, bool found);
   /// There was no time to look: the tile's limit rises.
   void defer(const Eigen::Vector2i& pixel);
@@ -69,6 +70,10 @@ class ChangeScan {
   void start(const Image& image, Planes<Lane>& planes);
   template <class Lane>
   void measure_noise(const Plane<Lane>& now, const Plane<Lane>& before);
+  /// The most that a cell holds alone, with a neighbour, or with the three around one of its corners: a spot on a
+  /// border of cells shines on two or four of them. Each sum in sigmas of its own.
+  template <class Lane>
+  float spot_energy(const Lane* cell, std::ptrdiff_t stride) const;
   template <class Lane>
   void collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
   template <class Lane>

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "lodestar/base/measurement/sighting.hpp"
 #include "lodestar/sensing/beacon/blob_track.hpp"
@@ -51,6 +52,10 @@ class CodeReader {
   Fit fit_code(const ToneBank& bank, float noise_power);
   /// Energy that the code leaves of the flux, paused frames left out. @param freedom less by those
   float residual_energy(const BlobTrack::Series& flux, float mean, int& freedom) const;
+  /// Energy that is left when the frames are either lit or dark, as the code's one tone has it.
+  float on_off_residual(const BlobTrack::Series& flux);
+  /// Whether the light goes as a beacon's: its tones as deep as they can be without its going below zero, or on-off.
+  bool has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance);
   Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
@@ -60,6 +65,7 @@ class CodeReader {
   Eigen::VectorXf projections_;
   Eigen::ArrayXf wave_;     ///< the code's part of the light, in each slot
   Eigen::ArrayXf weights_;  ///< scratch, one a slot
+  std::vector<int> ranks_;  ///< scratch
 };
 
 }  // namespace lodestar

@@ -15,6 +15,10 @@ class FrameWindow {
 
   /// @param T_before_now camera coordinates now to those at the frame before
   void push(const Image& image, const RigidTransform& T_before_now);
+  /// The motion into a frame is known better now.
+  void set_motion(int slot, const RigidTransform& T_before_now) {
+    frames_[static_cast<std::size_t>(slot)].T_before_now = T_before_now;
+  }
   void clear();
 
   int capacity() const { return static_cast<int>(frames_.size()); }
@@ -26,6 +30,9 @@ class FrameWindow {
   int slot(int age) const { return (newest_ + capacity() - age) % capacity(); }
   const Image& at(int slot) const { return frames_[static_cast<std::size_t>(slot)].image; }
   const RigidTransform& T_before_now(int slot) const { return frames_[static_cast<std::size_t>(slot)].T_before_now; }
+
+  /// From the frame before to that of `slot`, s. Not of the oldest.
+  double interval_s(int slot) const;
 
   /// Mean interval between the frames, s; 0 with less than two.
   double period_s() const;

@@ -25,6 +25,16 @@ TEST_P(Sensitivity, IsWithinHalfADecibelOfTheory) {
   }
 }
 
+/// The search is busy with noise when the beacons come, and half a window of theirs is no tone yet.
+TEST(Sensitivity, IsTheSameInTheMidstOfARun) {
+  test::DetectionTrials trials;
+  trials.window_frames = 60;
+  trials.dark_frames = 200;
+  const double snr_db = trials.theory_snr_db(0.99) + 0.5;
+  constexpr int kCount = 350;
+  EXPECT_GE(trials.measure(snr_db, kCount, 1), 0.99 - luck(0.99, kCount));
+}
+
 TEST(FalseAlarms, AreNoMoreThanStated) {
   for (const double factor : {1e6, 1e4}) {
     test::FalseAlarms alarms;

@@ -278,10 +278,17 @@ TEST(BeaconDetector, DropsWhatItCannotUseByReason) {
   wrong.stride_bytes = 10;
   EXPECT_EQ(refuse(wrong), FrameDrop::kFormat);
   wrong = scene.render(2);
+  wrong.bits = 16;
+  wrong.stride_bytes = 2 * static_cast<std::size_t>(wrong.width_px) + 1;
+  EXPECT_EQ(refuse(wrong), FrameDrop::kFormat) << "every second row at an odd address";
+  wrong.stride_bytes += 1;
+  ++wrong.data;
+  EXPECT_EQ(refuse(wrong), FrameDrop::kFormat) << "every row at an odd address";
+  wrong = scene.render(2);
   wrong.height_px -= 1;
   EXPECT_EQ(refuse(wrong), FrameDrop::kSize);
   EXPECT_EQ(detector.drops()[FrameDrop::kDuplicate], 1u);
-  EXPECT_EQ(detector.drops().total(), 6u);
+  EXPECT_EQ(detector.drops().total(), 8u);
 }
 
 TEST(BeaconDetector, RefusesWhatItCannotWorkWith) {

@@ -1,0 +1,86 @@
+#include "lodestar/sensing/beacon/common_motion.hpp"
+
+namespace lodestar {
+
+void CommonMotion::predict(FrameWindow& window, const ImageMotion& image) {
+  if (!ego_.known()) return;
+  ego_.predict();
+  const int newest = window.newest();
+  window.set_motion(newest, ego_.T_before_now(window.interval_s(newest), image.plane_height_m));
+}
+
+void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
+  constexpr int kHits = 3;
+  constexpr double kShapePx2 = 0.1 * 0.1;  // what a blurred spot leaves open
+  if (!ego_.known()) return;
+  const double interval_s = window.interval_s(window.newest());
+  std::size_t resting = 0;
+  flows_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const PathFilter& path = tracks[i].path();
+    resting += path.still();
+    if (path.still() || !tracks[i].seen() || tracks[i].hits() < kHits) continue;
+    const double variance = path.variance() + tracks[i].seen_variance() + kShapePx2;
+    flows_.push_back(
+        {path.pixel(), (tracks[i].seen_at() - path.pixel()) / interval_s, variance / (interval_s * interval_s)});
+  }
+  const EgoMotion::Twist before = ego_.twist(), change = ego_.refine(flows_, *image.camera);
+  if (resting > flows_.size()) ego_.forget();
+  for (std::size_t i = 0; i < count; ++i) {
+    PathFilter& path = tracks[i].path();
+    if (ego_.known()) {
+      path.shift(EgoMotion::flow(change, path.pixel(), *image.camera) * interval_s);
+    } else {
+      path.hand_over(-EgoMotion::flow(before, path.pixel(), *image.camera));
+    }
+  }
+  if (ego_.known()) window.set_motion(window.newest(), ego_.T_before_now(interval_s, image.plane_height_m));
+}
+
+int CommonMotion::gather_velocities(const Tracks& tracks, std::size_t count, const ImageMotion& image) {
+  constexpr int kHits = 6;               // after which a velocity is worth its variance
+  constexpr double kHeightShare = 0.15;  // by which heights make a blob's velocity differ, one sigma
+  int resting = 0;
+  flows_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const PathFilter& path = tracks[i].path();
+    resting += path.still();
+    if (path.still() || !tracks[i].seen() || tracks[i].hits() < kHits) continue;
+    Eigen::Vector2d whole = path.velocity_px_s();
+    if (ego_.known()) whole += flow(path.pixel(), image);
+    const double sigma = 1 + kHeightShare * whole.norm();
+    flows_.push_back({path.pixel(), path.velocity_px_s(), path.velocity_variance() + sigma * sigma});
+  }
+  return resting;
+}
+
+void CommonMotion::learn(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
+  constexpr double kOwnFades = 0.1;  // a frame; what a height makes of it is learnt as fast
+  const int resting = gather_velocities(tracks, count, image);
+  if (!ego_.known()) {
+    if (resting <= static_cast<int>(flows_.size())) start(tracks, count, window, image);
+    return;
+  }
+  const EgoMotion::Twist change = ego_.absorb(flows_, *image.camera);
+  for (std::size_t i = 0; i < count; ++i) {
+    PathFilter& path = tracks[i].path();
+    path.hand_over(EgoMotion::flow(change, path.pixel(), *image.camera));
+    path.hand_over(kOwnFades * path.velocity_px_s());
+  }
+}
+
+void CommonMotion::start(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
+  if (!ego_.start(flows_, *image.camera, window.interval_s(window.newest()))) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    PathFilter& path = tracks[i].path();
+    path.hand_over(flow(path.pixel(), image));
+    path.forget_acceleration();
+  }
+  // Before it was known the camera moved alike.
+  for (int age = 0; age < window.size() - 1; ++age) {
+    const int slot = window.slot(age);
+    window.set_motion(slot, ego_.T_before_now(window.interval_s(slot), image.plane_height_m));
+  }
+}
+
+}  // namespace lodestar
