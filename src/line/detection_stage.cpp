@@ -29,9 +29,11 @@ void DetectionStage::set_camera(const CameraMount& camera) {
   motion_.set_mount(camera.T_base_camera);
 }
 
-void DetectionStage::set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard) {
+void DetectionStage::set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+                                 const std::vector<Arrival>& arrivals) {
   beacons_ = beacons;
   heard_ = heard;
+  arrivals_ = arrivals;
 }
 
 void DetectionStage::add_imu(const ImuSample& sample) { motion_.add_imu(sample); }
@@ -57,7 +59,7 @@ Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {
   auto result = detector_.process(image, motion_);
   if (!result) return result;
   Sightings sightings = std::move(result).value();
-  namer_.name(sightings, beacons_, heard_, *camera_.model, camera_.T_base_camera, pose);
+  namer_.name(sightings, beacons_, heard_, arrivals_, *camera_.model, camera_.T_base_camera, pose);
   return sightings;
 }
 

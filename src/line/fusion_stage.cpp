@@ -18,17 +18,22 @@ void FusionStage::add_imu(const ImuSample& sample) { filter_.add_imu(sample); }
 void FusionStage::add_odometry(const OdometrySample& sample) { filter_.add_odometry(sample); }
 
 void FusionStage::add_sightings(const Sightings& sightings) {
+  sightings_stamp_ = sightings.stamp;
   if (!use_sightings_ || !camera_.model) return;
   const BeaconBearings named = bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
 }
 
 void FusionStage::add_fix(const Fix& fix) {
-  const bool running = filter_.mode() == FilterMode::kTracking || filter_.mode() == FilterMode::kCoasting;
-  if (use_sightings_ && running) return;
+  const bool coasting = filter_.mode() == FilterMode::kCoasting;
+  const bool told_already = filter_.mode() == FilterMode::kTracking || (coasting && sightings_stamp_ == fix.stamp);
+  if (use_sightings_ && told_already) return;
   filter_.add_fix(fix);
 }
 
-void FusionStage::reset() { filter_.reset(); }
+void FusionStage::reset() {
+  filter_.reset();
+  sightings_stamp_.reset();
+}
 
 }  // namespace lodestar

@@ -40,6 +40,7 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<d
   params.filter.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
 
   params.calibration_sigma_px = vehicle.calibration_sigma_px;
+  params.diodes = vehicle.diodes;
   params.heard_for = heard_for(site.link);
   return params;
 }
@@ -48,6 +49,7 @@ LocalizationLine::LocalizationLine(const Site& site, const LineParams& params)
     : heard_for_(params.heard_for),
       decoder_(site.link, static_cast<int>(site.tone_table_hz.size())),
       table_(site),
+      arrivals_(params.diodes, params.heard_for),
       detection_(params.detector, params.namer),
       pose_(params.solver, params.tilt, params.calibration_sigma_px),
       fusion_(params.filter, params.calibration_sigma_px, params.use_sightings) {
@@ -65,6 +67,8 @@ void LocalizationLine::set_imu(const Eigen::Vector3d& imu_position_base) {
   fusion_.set_imu(imu_position_base);
 }
 
+void LocalizationLine::set_ir_array(const RigidTransform& T_base_ir) { arrivals_.set_mount(T_base_ir); }
+
 void LocalizationLine::add_imu(const ImuSample& sample) {
   detection_.add_imu(sample);
   pose_.add_imu(sample);
@@ -72,6 +76,7 @@ void LocalizationLine::add_imu(const ImuSample& sample) {
 }
 
 void LocalizationLine::add_odometry(const OdometrySample& sample) {
+  arrivals_.add_odometry(sample);
   detection_.add_odometry(sample);
   pose_.add_odometry(sample);
   fusion_.add_odometry(sample);
@@ -85,7 +90,16 @@ Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const RawIrFrame& fr
   }
   if (const auto reason = table_.accept(*announcement)) return *reason;
   share_beacons();
+  arrivals_.add(*announcement);
+  if (pose_.camera_is_blind(announcement->stamp)) fix_by_arrivals(announcement->stamp);
   return announcement;
+}
+
+void LocalizationLine::fix_by_arrivals(Stamp stamp) {
+  if (!arrivals_.mount()) return;
+  const auto fix =
+      pose_.coarse_fix(arrivals_.recent(stamp), *arrivals_.mount(), stamp, fusion_.filter().estimate_at(stamp));
+  if (fix) fusion_.add_fix(*fix);
 }
 
 void LocalizationLine::share_beacons() {
@@ -95,24 +109,26 @@ void LocalizationLine::share_beacons() {
 }
 
 Result<LocalizationLine::Outcome, FrameDrop> LocalizationLine::process(const Image& image) {
-  detection_.set_beacons(table_.beacons(), table_.heard(image.stamp, heard_for_));
+  const std::vector<Arrival> arrivals = arrivals_.recent(image.stamp);
+  detection_.set_beacons(table_.beacons(), table_.heard(image.stamp, heard_for_), arrivals);
   detection_.set_estimate(fusion_.filter().estimate());
   auto sightings = detection_.process(image);
   if (!sightings) return sightings.error();
 
   Outcome outcome;
   outcome.sightings = std::move(sightings).value();
-  if (const auto fix = pose_.process(outcome.sightings)) {
+  fusion_.add_sightings(outcome.sightings);
+  if (const auto fix = pose_.process(outcome.sightings, arrivals)) {
     outcome.fix = *fix;
     fusion_.add_fix(*fix);
   }
-  fusion_.add_sightings(outcome.sightings);
   outcome.estimate = fusion_.filter().estimate_at(image.stamp);
   return outcome;
 }
 
 void LocalizationLine::reset() {
   table_.reset_time();
+  arrivals_.reset();
   detection_.reset();
   pose_.reset();
   fusion_.reset();

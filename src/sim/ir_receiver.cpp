@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lodestar/base/common/angle.hpp"
+#include "lodestar/base/measurement/diode_array.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 
 namespace lodestar::sim {
@@ -28,12 +28,8 @@ Announcement announcement(const Beacon& beacon, const Link& link, std::uint32_t 
 }  // namespace
 
 IrReceiver::IrReceiver(const IrReceiverParams& params, std::uint64_t seed) : params_(params), random_(seed, "ir") {
-  directions_.push_back(Eigen::Vector3d::UnitZ());
-  for (int i = 1; i < params.diodes; ++i) {
-    const double azimuth = 2 * kPi * (i - 1) / (params.diodes - 1);
-    directions_.emplace_back(std::sin(params.tilt_rad) * std::cos(azimuth),
-                             std::sin(params.tilt_rad) * std::sin(azimuth), std::cos(params.tilt_rad));
-  }
+  for (const auto& diode : DiodeArray::ring(params.diodes, params.tilt_rad).diodes)
+    directions_.push_back(diode.direction_ir);
 }
 
 std::vector<float> IrReceiver::levels(const Eigen::Vector3d& position_map, const BeaconLightParams& light,

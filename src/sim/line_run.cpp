@@ -8,6 +8,7 @@ namespace lodestar::sim {
 LocalizationLine make_line(const Scenario& scenario) {
   LocalizationLine line(scenario.site, line_params(scenario.site, Vehicle(), scenario.camera.rate_hz));
   line.set_camera({CameraModel::create(scenario.camera.intrinsics).value(), scenario.T_base_camera});
+  line.set_ir_array(scenario.ir.T_base_ir);
   line.set_imu(scenario.imu.T_base_imu.translation());
   return line;
 }

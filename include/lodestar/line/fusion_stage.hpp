@@ -13,7 +13,8 @@
 namespace lodestar {
 
 /// Fixes, sightings and motion in, the filtered pose out. Fixes start the filter (and restart it after a loss);
-/// sightings correct it while it runs; with `use_sightings` off, fixes do both.
+/// sightings correct it while it runs, and fixes of other sources where there are none; with `use_sightings` off, fixes
+/// do both. Sightings come before the fix that was made of them.
 class FusionStage {
  public:
   FusionStage(const PoseFilterParams& filter, double calibration_sigma_px, bool use_sightings);
@@ -37,6 +38,7 @@ class FusionStage {
   bool use_sightings_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  std::optional<Stamp> sightings_stamp_;
 };
 
 }  // namespace lodestar

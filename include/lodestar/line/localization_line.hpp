@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "lodestar/base/measurement/ir_frame.hpp"
+#include "lodestar/line/arrivals.hpp"
 #include "lodestar/line/detection_stage.hpp"
 #include "lodestar/line/fusion_stage.hpp"
 #include "lodestar/line/pose_stage.hpp"
@@ -21,6 +22,7 @@ struct LineParams {
   PoseFilterParams filter;
   double calibration_sigma_px = 0.3;
   bool use_sightings = true;  ///< tightly coupled; off: the filter is fed with fixes alone
+  DiodeArray diodes;          ///< of the IR receiver
   Duration heard_for{};       ///< how long after its announcement a beacon counts as heard
 };
 
@@ -44,10 +46,12 @@ class LocalizationLine {
   void set_camera(const CameraMount& camera);
   /// Where the inertial sensor sits, in base_link (m).
   void set_imu(const Eigen::Vector3d& imu_position_base);
+  /// Where the photodiodes sit; without it no direction is read from their levels.
+  void set_ir_array(const RigidTransform& T_base_ir);
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
 
-  /// The accepted announcement, or why the frame was dropped.
+  /// The accepted announcement, or why the frame was dropped. While the camera is blind it makes a coarse fix.
   Result<Announcement, IrDrop> add_ir_frame(const RawIrFrame& frame);
 
   Result<Outcome, FrameDrop> process(const Image& image);
@@ -61,10 +65,12 @@ class LocalizationLine {
 
  private:
   void share_beacons();
+  void fix_by_arrivals(Stamp stamp);
 
   Duration heard_for_;
   IrFrameDecoder decoder_;
   BeaconTable table_;
+  Arrivals arrivals_;
   DetectionStage detection_;
   PoseStage pose_;
   FusionStage fusion_;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lodestar/base/measurement/arrival.hpp"
 #include "lodestar/base/measurement/bearing.hpp"
 #include "lodestar/base/measurement/motion.hpp"
 #include "lodestar/base/measurement/pose_estimate.hpp"
@@ -19,7 +20,8 @@ namespace lodestar {
 BeaconBearings bearings(const Sightings& sightings, const CameraModel& camera, const std::vector<Beacon>& beacons,
                         double calibration_sigma_px);
 
-/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver.
+/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver. While the camera gives no fix, the directions
+/// that announcements came from make a coarse one.
 class PoseStage {
  public:
   PoseStage(const PoseSolverParams& solver, const TiltFilterParams& tilt, double calibration_sigma_px);
@@ -32,19 +34,31 @@ class PoseStage {
   void add_odometry(const OdometrySample& sample);
 
   /// The pose of base_link at the sightings' stamp, or why there is none.
-  Result<Fix, NoFix> process(const Sightings& sightings);
+  /// @param arrivals tell two poses apart that the sightings leave
+  Result<Fix, NoFix> process(const Sightings& sightings, const std::vector<Arrival>& arrivals);
+
+  /// No fix from sightings for kBlindAfter before `now`, or since this was asked first.
+  bool camera_is_blind(Stamp now);
+  /// The pose of base_link at `stamp` from arrivals alone, some decimetres wide (docs/math/irlink.md).
+  /// @param prior settles which of two poses it is
+  Result<Fix, NoFix> coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir, Stamp stamp,
+                                const std::optional<PoseEstimate>& prior) const;
+
+  static constexpr Duration kBlindAfter = std::chrono::seconds(2);
 
   void reset();
   const DropCounts<NoFix>& refusals() const { return refusals_; }
 
  private:
-  Result<Fix, NoFix> solve(const Sightings& sightings) const;
+  Result<Fix, NoFix> solve(const Sightings& sightings, const std::vector<Arrival>& arrivals) const;
+  const Beacon* find(BeaconId id) const;
 
-  PoseSolver solver_;
+  PoseSolver solver_, coarse_solver_;
   TiltFilter tilt_;
   double calibration_sigma_px_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  std::optional<Stamp> last_fix_;  ///< from sightings; until there is one: the start
   DropCounts<NoFix> refusals_;
 };
 

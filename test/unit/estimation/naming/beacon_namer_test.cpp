@@ -39,7 +39,7 @@ class BeaconNaming : public testing::Test {
   }
 
   void name(const std::optional<PoseEstimate>& estimate, const BeaconNamerParams& params = {}) {
-    BeaconNamer(params).name(seen_, beacons_, heard_, *camera_, T_base_camera_, estimate);
+    BeaconNamer(params).name(seen_, beacons_, heard_, arrivals_, *camera_, T_base_camera_, estimate);
   }
   std::optional<BeaconId> named(int i) const { return seen_.sightings[i].beacon; }
 
@@ -48,6 +48,7 @@ class BeaconNaming : public testing::Test {
   PoseEstimate pose_;
   std::vector<Beacon> beacons_;
   std::vector<BeaconId> heard_;
+  std::vector<Arrival> arrivals_;
   Sightings seen_;
 };
 
