@@ -1,5 +1,6 @@
 #include "lodestar/line/arrivals.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,9 @@ namespace {
 constexpr double kLeastHeight_m = 3;    // of a beacon above the receiver: what driving turns a bearing by
 constexpr double kUnknown_rad_s = 0.5;  // by which bearings turn when no wheels say it
 constexpr double kOdometryGood_s = 0.5;
+constexpr double kLeastDistance_m = 0.5;
+constexpr double kModelSigma_rad = 0.05;  // light that comes by way of a wall
+constexpr double kGate_chi2 = 27.6;       // of two degrees of freedom: one true frame in a million is beyond it
 
 double turning_rad_s(const OdometrySample& odometry) {
   return std::abs(odometry.yaw_rate_rad_s) + odometry.velocity_m_s.norm() / kLeastHeight_m;
@@ -32,6 +36,24 @@ double Arrivals::turned_rad(const Heard& heard, Stamp now) const {
 void Arrivals::add_odometry(const OdometrySample& sample) {
   if (odometry_ && sample.stamp > odometry_->stamp) moved_rad_ = moved_rad(sample.stamp);
   if (!odometry_ || sample.stamp > odometry_->stamp) odometry_ = sample;
+}
+
+bool Arrivals::plausible(const Announcement& announcement, const PoseEstimate& pose) const {
+  if (!T_base_ir_) return true;
+  const auto direction = arrival_direction(announcement.levels, array_);
+  if (!direction) return true;
+  const Eigen::Matrix3d R_map_base = pose.T_map_base.linear();
+  const Eigen::Vector3d ray_map = announcement.position_map - pose.T_map_base * T_base_ir_->translation();
+  const double distance_m = std::max(ray_map.norm(), kLeastDistance_m);
+  const Eigen::Vector3d u = ray_map / distance_m;
+  const Eigen::Matrix3d R_map_ir = R_map_base * T_base_ir_->linear();
+  Eigen::Matrix<double, 3, 6> J;  // of the direction in map by the pose; its rotation turns what the diodes say
+  J << -Eigen::Matrix3d::Identity() / distance_m, skew(u);
+  const Eigen::Vector3d off = R_map_ir * direction->direction_ir - u;
+  const Eigen::Matrix3d S = R_map_ir * direction->covariance * R_map_ir.transpose() +
+                            J * pose.covariance * J.transpose() + u * u.transpose() +
+                            kModelSigma_rad * kModelSigma_rad * Eigen::Matrix3d::Identity();
+  return off.dot(S.llt().solve(off)) < kGate_chi2;
 }
 
 void Arrivals::add(const Announcement& announcement) {

@@ -88,11 +88,20 @@ Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const RawIrFrame& fr
     table_.count(announcement.error());
     return announcement;
   }
+  if (!plausible(*announcement)) {
+    table_.count(IrDrop::kDirection);
+    return IrDrop::kDirection;
+  }
   if (const auto reason = table_.accept(*announcement)) return *reason;
   share_beacons();
   arrivals_.add(*announcement);
   if (pose_.camera_is_blind(announcement->stamp)) fix_by_arrivals(announcement->stamp);
   return announcement;
+}
+
+bool LocalizationLine::plausible(const Announcement& announcement) const {
+  const auto pose = fusion_.filter().estimate_at(announcement.stamp);
+  return !pose || arrivals_.plausible(announcement, *pose);
 }
 
 void LocalizationLine::fix_by_arrivals(Stamp stamp) {

@@ -43,9 +43,9 @@ void PoseStage::add_imu(const ImuSample& sample) { tilt_.add_imu(sample); }
 void PoseStage::add_odometry(const OdometrySample& sample) { tilt_.add_odometry(sample); }
 
 Result<Fix, NoFix> PoseStage::process(const Sightings& sightings, const std::vector<Arrival>& arrivals) {
+  if (!sightings.sightings.empty()) last_seen_ = sightings.stamp;
   auto result = solve(sightings, arrivals);
   if (!result) refusals_.add(result.error());
-  if (result) last_fix_ = sightings.stamp;
   return result;
 }
 
@@ -56,8 +56,8 @@ const Beacon* PoseStage::find(BeaconId id) const {
 }
 
 bool PoseStage::camera_is_blind(Stamp now) {
-  if (!last_fix_) last_fix_ = now;
-  return now - *last_fix_ > kBlindAfter;
+  if (!last_seen_) last_seen_ = now;
+  return now - *last_seen_ > kBlindAfter;
 }
 
 Result<Fix, NoFix> PoseStage::coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir,
@@ -88,7 +88,7 @@ Result<Fix, NoFix> PoseStage::solve(const Sightings& sightings, const std::vecto
 
 void PoseStage::reset() {
   tilt_.reset();
-  last_fix_.reset();
+  last_seen_.reset();
 }
 
 }  // namespace lodestar

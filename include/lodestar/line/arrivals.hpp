@@ -9,6 +9,7 @@
 #include "lodestar/base/measurement/announcement.hpp"
 #include "lodestar/base/measurement/arrival.hpp"
 #include "lodestar/base/measurement/motion.hpp"
+#include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/sensing/irlink/arrival_direction.hpp"
 
 namespace lodestar {
@@ -24,6 +25,9 @@ class Arrivals {
   const std::optional<RigidTransform>& mount() const { return T_base_ir_; }
 
   void add_odometry(const OdometrySample& sample);
+  /// Whether the announcement may have come from where it says, as far as its levels and the pose of base_link at its
+  /// stamp tell.
+  bool plausible(const Announcement& announcement, const PoseEstimate& pose) const;
   /// @param announcement accepted by the beacon table
   void add(const Announcement& announcement);
 

@@ -65,6 +65,7 @@ class LocalizationLine {
 
  private:
   void share_beacons();
+  bool plausible(const Announcement& announcement) const;
   void fix_by_arrivals(Stamp stamp);
 
   Duration heard_for_;
