@@ -42,12 +42,7 @@ void DetectionStage::set_estimate(const std::optional<StateEstimate>& estimate) 
 
 std::optional<PoseEstimate> DetectionStage::predicted(Stamp stamp) const {
   if (!estimate_ || std::abs(seconds(stamp - estimate_->stamp)) > kMaxEstimateAge_s) return std::nullopt;
-  PoseEstimate pose = *estimate_;
-  const double ahead_s = seconds(stamp - estimate_->stamp);
-  pose.stamp = stamp;
-  pose.T_map_base.translation() += estimate_->T_map_base.linear() * estimate_->velocity_base_m_s * ahead_s;
-  pose.T_map_base.linear() *= so3_exp(estimate_->angular_velocity_rad_s * ahead_s);
-  return pose;
+  return moved_on(*estimate_, stamp);
 }
 
 Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {

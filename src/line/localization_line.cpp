@@ -2,11 +2,10 @@
 
 namespace lodestar {
 namespace {
+constexpr double kFullScale_counts = 32767;  // of 16 bits
+}
 
-/// How long a beacon counts as heard: a lost frame or two must not silence it.
 Duration heard_for(const Link& link) { return from_seconds(3.0 * link.slot_s * link.slot_count); }
-
-}  // namespace
 
 LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz) {
   LineParams params;
@@ -47,6 +46,7 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<d
 
 LocalizationLine::LocalizationLine(const Site& site, const LineParams& params)
     : heard_for_(params.heard_for),
+      demodulator_(site.link.bit_rate_bps, kFullScale_counts),
       decoder_(site.link, static_cast<int>(site.tone_table_hz.size())),
       table_(site),
       arrivals_(params.diodes, params.heard_for),
@@ -111,6 +111,10 @@ void LocalizationLine::fix_by_arrivals(Stamp stamp) {
   if (fix) fusion_.add_fix(*fix);
 }
 
+void LocalizationLine::add_ir_samples(const IrSampleBlock& samples) {
+  demodulator_.process(samples, [this](const RawIrFrame& frame) { add_ir_frame(frame); });
+}
+
 void LocalizationLine::share_beacons() {
   const auto beacons = table_.beacons();
   pose_.set_beacons(beacons);
@@ -136,6 +140,7 @@ Result<LocalizationLine::Outcome, FrameDrop> LocalizationLine::process(const Ima
 }
 
 void LocalizationLine::reset() {
+  demodulator_.reset();
   table_.reset_time();
   arrivals_.reset();
   detection_.reset();

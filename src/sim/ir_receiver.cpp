@@ -61,6 +61,21 @@ RawIrFrame IrReceiver::junk() {
   return frame;
 }
 
+std::vector<RawIrFrame> IrReceiver::on_air(const std::vector<Sender>& senders, const Link& link,
+                                           const BeaconLightParams& light, const Scene& scene,
+                                           const RigidTransform& T_map_base, int slot, std::uint32_t superframe) const {
+  const Eigen::Vector3d eye = (T_map_base * params_.T_base_ir).translation();
+  std::vector<RawIrFrame> out;
+  for (const Sender& sender : senders) {
+    if (!light.lit || sender.announced.slot != slot || scene.hidden(sender.position_map, eye)) continue;
+    RawIrFrame frame;
+    frame.octets = encode_ir_frame(announcement(sender.announced, link, superframe), link);
+    frame.levels = levels(sender.position_map, light, T_map_base);
+    out.push_back(std::move(frame));
+  }
+  return out;
+}
+
 std::vector<IrReceiver::Heard> IrReceiver::listen(const std::vector<Sender>& senders, const Link& link,
                                                   const BeaconLightParams& light, const Scene& scene,
                                                   const RigidTransform& T_map_base, int slot,

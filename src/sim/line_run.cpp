@@ -17,6 +17,7 @@ std::optional<LocalizationLine::Outcome> feed(LocalizationLine& line, const Even
   if (const auto* imu = std::get_if<ImuSample>(&event.data)) line.add_imu(*imu);
   if (const auto* odometry = std::get_if<OdometrySample>(&event.data)) line.add_odometry(*odometry);
   if (const auto* frame = std::get_if<RawIrFrame>(&event.data)) line.add_ir_frame(*frame);
+  if (const auto* samples = std::get_if<IrSampleBlock>(&event.data)) line.add_ir_samples(*samples);
   const auto* image = std::get_if<Image>(&event.data);
   if (image == nullptr) return std::nullopt;
   auto outcome = line.process(*image);

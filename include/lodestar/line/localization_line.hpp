@@ -8,6 +8,7 @@
 #include "lodestar/line/fusion_stage.hpp"
 #include "lodestar/line/pose_stage.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
+#include "lodestar/sensing/irlink/ir_demodulator.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 
 namespace lodestar {
@@ -29,6 +30,9 @@ struct LineParams {
 /// @param frame_rate_hz of the camera, for the detector's window where neither file fixes it; none for who runs other
 /// stages alone
 LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz = std::nullopt);
+
+/// How long a beacon counts as heard: a lost frame or two must not silence it.
+Duration heard_for(const Link& link);
 
 /// The whole optical line in one object, for replay and simulation: the same stages that the nodelets run.
 /// Calls come in the order of reception.
@@ -53,6 +57,8 @@ class LocalizationLine {
 
   /// The accepted announcement, or why the frame was dropped. While the camera is blind it makes a coarse fix.
   Result<Announcement, IrDrop> add_ir_frame(const RawIrFrame& frame);
+  /// Frames from the samples of the other kind of receiver; each goes through add_ir_frame.
+  void add_ir_samples(const IrSampleBlock& samples);
 
   Result<Outcome, FrameDrop> process(const Image& image);
 
@@ -69,6 +75,7 @@ class LocalizationLine {
   void fix_by_arrivals(Stamp stamp);
 
   Duration heard_for_;
+  IrDemodulator demodulator_;
   IrFrameDecoder decoder_;
   BeaconTable table_;
   Arrivals arrivals_;

@@ -41,6 +41,8 @@ class IrSampler {
   /// @param stamp of the first
   IrSampleBlock next(int count, Stamp stamp);
 
+  double sample_rate_hz() const { return params_.sample_rate_hz; }
+
   /// When the next block begins, s since the start.
   double time_s() const { return static_cast<double>(taken_) * period_s_; }
 

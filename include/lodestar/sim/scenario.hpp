@@ -48,6 +48,7 @@ struct Scenario {
   RigidTransform T_base_camera = RigidTransform::Identity();
   BeaconLightParams beacons;
   IrReceiverParams ir;
+  bool ir_samples = false;  ///< the receiver hands over samples, not frames
   bool has_camera = true, has_ir = true, has_imu = true, has_odometry = true;
   ImuParams imu;
   WheelOdometryParams odometry;

@@ -13,6 +13,7 @@
 #include "lodestar/sim/fix_sensor.hpp"
 #include "lodestar/sim/imu.hpp"
 #include "lodestar/sim/ir_receiver.hpp"
+#include "lodestar/sim/ir_sampler.hpp"
 #include "lodestar/sim/scenario.hpp"
 #include "lodestar/sim/truck.hpp"
 #include "lodestar/sim/wheel_odometry.hpp"
@@ -34,7 +35,7 @@ struct TrueCamera {
 /// One sample and when it reaches the computer.
 struct Event {
   Stamp received;
-  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix> data;
+  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, IrSampleBlock, TrueBase, TrueCamera, Fix> data;
 };
 
 /// A whole run of a scenario: what the sensors say, in the order of reception. The same seed gives the same run, bit by
@@ -73,6 +74,7 @@ class Simulation {
   void take_image();
   void take_fix();
   void hear_slot();
+  void sample_slot(int slot, std::uint32_t superframe, double begin_s, const RigidTransform& T_map_base);
 
   Scenario scenario_;
   std::vector<Beacon> true_beacons_;
@@ -84,6 +86,7 @@ class Simulation {
   std::unique_ptr<Imu> imu_;
   std::unique_ptr<WheelOdometry> odometry_;
   std::unique_ptr<IrReceiver> ir_;
+  std::unique_ptr<IrSampler> ir_sampler_;  ///< where the receiver hands over samples
   std::unique_ptr<FixSensor> fixes_;
   std::uint64_t imu_count_ = 0, odometry_count_ = 0, slot_count_ = 0, fix_count_ = 0, truth_count_ = 0;
   std::uint64_t sequence_ = 0;

@@ -14,6 +14,7 @@
 #include "lodestar/ros/convert/image.hpp"
 #include "lodestar/ros/convert/imu.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
+#include "lodestar/ros/convert/ir_samples.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
@@ -66,6 +67,7 @@ void SimulationNodelet::advertise() {
   imu_ = nh.advertise<sensor_msgs::Imu>("imu/data", 200);
   odometry_ = nh.advertise<nav_msgs::Odometry>("odom", 50);
   ir_ = nh.advertise<IrFrame>("ir/frames", 50);
+  if (scenario_.ir_samples) ir_samples_ = nh.advertise<IrSamples>("ir/samples", 50);
   if (scenario_.fixes) fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 50);
   truth_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/pose", 100);
   camera_truth_ = nh.advertise<geometry_msgs::PoseStamped>("ground_truth/camera_pose", 100);
@@ -121,6 +123,8 @@ void SimulationNodelet::publish(const OdometrySample& sample) {
 }
 
 void SimulationNodelet::publish(const RawIrFrame& frame) { ir_.publish(ir_frame_message(frame, kIr)); }
+
+void SimulationNodelet::publish(const IrSampleBlock& samples) { ir_samples_.publish(ir_samples_message(samples, kIr)); }
 
 void SimulationNodelet::publish(const Fix& fix) { fix_.publish(pose_estimate_message(fix, map_frame_)); }
 

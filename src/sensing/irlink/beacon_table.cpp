@@ -94,6 +94,11 @@ void BeaconTable::learn(Entry& entry, const Announcement& announcement) {
   ++revision_;
 }
 
+void BeaconTable::distrust(BeaconId id) {
+  const auto known = entries_.find(id);
+  if (known != entries_.end()) set_conflict(known->second, true);
+}
+
 bool BeaconTable::confirm(BeaconId id) {
   const auto known = entries_.find(id);
   if (known == entries_.end() || !known->second.last) return false;

@@ -177,6 +177,8 @@ class IrDemodulator::Stream {
 IrDemodulator::IrDemodulator(double bit_rate_bps, double full_scale_counts)
     : bit_rate_bps_(bit_rate_bps), full_scale_counts_(full_scale_counts) {}
 
+IrDemodulator::IrDemodulator(IrDemodulator&&) noexcept = default;
+IrDemodulator& IrDemodulator::operator=(IrDemodulator&&) noexcept = default;
 IrDemodulator::~IrDemodulator() = default;
 
 std::optional<SampleDrop> IrDemodulator::fault_of(const IrSampleBlock& block) const {

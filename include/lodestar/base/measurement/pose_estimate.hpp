@@ -29,4 +29,7 @@ struct StateEstimate : PoseEstimate {
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< base_link
 };
 
+/// The estimate moved on (or back) to `stamp` by constant velocity; the covariance stays.
+PoseEstimate moved_on(const StateEstimate& estimate, Stamp stamp);
+
 }  // namespace lodestar

@@ -42,6 +42,9 @@ class BeaconTable {
   /// Takes an announcement in, or says why not; counts either way. A conflict takes the beacon out of force.
   std::optional<IrDrop> accept(const Announcement& announcement);
 
+  /// Takes a known beacon out of force until it is confirmed.
+  void distrust(BeaconId id);
+
   /// Somebody has looked after the beacon: what it last said of itself is right. Whether it has said anything.
   bool confirm(BeaconId id);
   /// The same, with what it said.

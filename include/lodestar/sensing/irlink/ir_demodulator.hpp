@@ -32,6 +32,8 @@ class IrDemodulator {
 
   /// @param full_scale_counts ADC counts that levels of 1 stand for
   IrDemodulator(double bit_rate_bps, double full_scale_counts);
+  IrDemodulator(IrDemodulator&&) noexcept;
+  IrDemodulator& operator=(IrDemodulator&&) noexcept;
   ~IrDemodulator();
 
   std::optional<SampleDrop> process(const IrSampleBlock& block, const Visit& visit);
