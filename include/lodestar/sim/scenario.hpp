@@ -69,6 +69,10 @@ struct Scenario {
 /// that it names is looked for beside it, and its tones are checked against the camera's rate.
 Result<Scenario, Faults> load_scenario(const std::string& path);
 
+/// The same for text at hand. `file_name` is for the faults and for the site file. Throws nothing, whatever the text
+/// holds.
+Result<Scenario, Faults> parse_scenario(const std::string& text, const std::string& file_name);
+
 /// The same with survey, calibration and inertial sensor exact, the floor flat and the truck stiff. What remains is the
 /// camera's noise.
 Scenario ideal(Scenario scenario);
