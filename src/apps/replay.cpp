@@ -105,6 +105,7 @@ class Replay {
     const auto announcement = line_.add_ir_frame(frame);
     if (announcement && out_bag_) out_bag_->write(received_, *announcement);
   }
+  void take(const IrSampleBlock& samples) { line_.add_ir_samples(samples); }
   void take(const Image& image) {
     const auto outcome = line_.process(image);
     if (!outcome) return;
@@ -220,6 +221,8 @@ int replay(const po::variables_map& options) {
   if (const auto T_base_imu = vehicle.T_base_imu ? vehicle.T_base_imu : reader.mount("imu_link")) {
     line.set_imu(T_base_imu->translation());
   }
+  if (const auto T_base_ir = vehicle.T_base_ir ? vehicle.T_base_ir : reader.mount("ir_array"))
+    line.set_ir_array(*T_base_ir);
   Replay replay(line, mount, site.frame_id, csv, out_bag.get());
   {
     ProgressBar bar("replay");

@@ -29,9 +29,11 @@ void DetectionStage::set_camera(const CameraMount& camera) {
   motion_.set_mount(camera.T_base_camera);
 }
 
-void DetectionStage::set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard) {
+void DetectionStage::set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+                                 const std::vector<Arrival>& arrivals) {
   beacons_ = beacons;
   heard_ = heard;
+  arrivals_ = arrivals;
 }
 
 void DetectionStage::add_imu(const ImuSample& sample) { motion_.add_imu(sample); }
@@ -40,12 +42,7 @@ void DetectionStage::set_estimate(const std::optional<StateEstimate>& estimate) 
 
 std::optional<PoseEstimate> DetectionStage::predicted(Stamp stamp) const {
   if (!estimate_ || std::abs(seconds(stamp - estimate_->stamp)) > kMaxEstimateAge_s) return std::nullopt;
-  PoseEstimate pose = *estimate_;
-  const double ahead_s = seconds(stamp - estimate_->stamp);
-  pose.stamp = stamp;
-  pose.T_map_base.translation() += estimate_->T_map_base.linear() * estimate_->velocity_base_m_s * ahead_s;
-  pose.T_map_base.linear() *= so3_exp(estimate_->angular_velocity_rad_s * ahead_s);
-  return pose;
+  return moved_on(*estimate_, stamp);
 }
 
 Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {
@@ -57,7 +54,7 @@ Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {
   auto result = detector_.process(image, motion_);
   if (!result) return result;
   Sightings sightings = std::move(result).value();
-  namer_.name(sightings, beacons_, heard_, *camera_.model, camera_.T_base_camera, pose);
+  namer_.name(sightings, beacons_, heard_, arrivals_, *camera_.model, camera_.T_base_camera, pose);
   return sightings;
 }
 

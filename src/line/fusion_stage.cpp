@@ -43,6 +43,7 @@ bool FusionStage::running() const {
 }
 
 void FusionStage::add_sightings(const Sightings& sightings) {
+  sightings_stamp_ = sightings.stamp;
   if (!use_sightings_ || !camera_.model) return;
   if (!running()) {
     if (auto found = places_.add_sightings(sightings)) filter_ = std::move(*found);
@@ -53,7 +54,9 @@ void FusionStage::add_sightings(const Sightings& sightings) {
 }
 
 void FusionStage::add_fix(const Fix& fix) {
-  if (use_sightings_ && running()) return;
+  const bool coasting = filter_.mode() == FilterMode::kCoasting;
+  const bool told_already = filter_.mode() == FilterMode::kTracking || (coasting && sightings_stamp_ == fix.stamp);
+  if (use_sightings_ && told_already) return;
   filter_.add_fix(fix);
   places_.close();
 }
@@ -61,6 +64,7 @@ void FusionStage::add_fix(const Fix& fix) {
 void FusionStage::reset() {
   filter_.reset();
   places_.reset();
+  sightings_stamp_.reset();
 }
 
 }  // namespace lodestar

@@ -1,12 +1,8 @@
 #include "lodestar/line/line_params.hpp"
 
 namespace lodestar {
-namespace {
 
-/// How long a beacon counts as heard: a lost frame or two must not silence it.
 Duration heard_for(const Link& link) { return from_seconds(3.0 * link.slot_s * link.slot_count); }
-
-}  // namespace
 
 LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz) {
   LineParams params;
@@ -44,6 +40,7 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<d
   params.filter.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
 
   params.calibration_sigma_px = vehicle.calibration_sigma_px;
+  params.diodes = vehicle.diodes;
   params.heard_for = heard_for(site.link);
   return params;
 }

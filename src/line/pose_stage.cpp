@@ -22,8 +22,19 @@ BeaconBearings bearings(const Sightings& sightings, const CameraModel& camera, c
   return result;
 }
 
+namespace {
+
+/// Arrivals are degrees wide; beyond these limits even a lost truck has no use for them.
+PoseSolverParams coarse(PoseSolverParams params) {
+  params.max_position_sigma_m = 2.0;
+  params.max_yaw_sigma_rad = radians(20);
+  return params;
+}
+
+}  // namespace
+
 PoseStage::PoseStage(const PoseSolverParams& solver, const TiltFilterParams& tilt, double calibration_sigma_px)
-    : solver_(solver), tilt_(tilt), calibration_sigma_px_(calibration_sigma_px) {}
+    : solver_(solver), coarse_solver_(coarse(solver)), tilt_(tilt), calibration_sigma_px_(calibration_sigma_px) {}
 
 void PoseStage::set_camera(const CameraMount& camera) { camera_ = camera; }
 void PoseStage::set_imu(const Eigen::Vector3d& imu_position_base) { tilt_.set_imu(imu_position_base); }
@@ -40,9 +51,14 @@ auto PoseStage::with_tilt(const Sightings& sightings, Solve&& solve) const
   return solve(bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_), *tilt);
 }
 
-Result<Fix, NoFix> PoseStage::process(const Sightings& sightings) {
+Result<Fix, NoFix> PoseStage::process(const Sightings& sightings, const std::vector<Arrival>& arrivals) {
+  if (!sightings.sightings.empty()) last_seen_ = sightings.stamp;
+  std::vector<Witness> witnesses;
+  for (const Arrival& arrival : arrivals)
+    if (const Beacon* beacon = find(arrival.beacon))
+      witnesses.push_back({beacon->position_map, arrival.direction_base, arrival.covariance});
   auto result = with_tilt(sightings, [&](const BeaconBearings& bearings, const Tilt& tilt) {
-    return solver_.solve(bearings, tilt, camera_.T_base_camera);
+    return solver_.solve(bearings, tilt, camera_.T_base_camera, {}, witnesses);
   });
   if (!result) refusals_.add(result.error());
   return result;
@@ -54,6 +70,34 @@ Result<PoseSolutions, NoFix> PoseStage::solutions(const Sightings& sightings) co
   });
 }
 
-void PoseStage::reset() { tilt_.reset(); }
+const Beacon* PoseStage::find(BeaconId id) const {
+  const auto found =
+      std::find_if(beacons_.begin(), beacons_.end(), [&](const Beacon& beacon) { return beacon.id == id; });
+  return found == beacons_.end() ? nullptr : &*found;
+}
+
+bool PoseStage::camera_is_blind(Stamp now) {
+  if (!last_seen_) last_seen_ = now;
+  return now - *last_seen_ > kBlindAfter;
+}
+
+Result<Fix, NoFix> PoseStage::coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir,
+                                         Stamp stamp, const std::optional<PoseEstimate>& prior) const {
+  const auto tilt = tilt_.tilt();
+  if (!tilt) return NoFix::kNoTilt;
+  BeaconBearings bearings{stamp, {}};
+  for (const Arrival& arrival : arrivals)
+    if (const Beacon* beacon = find(arrival.beacon))
+      bearings.bearings.push_back(
+          {beacon->id, beacon->position_map, beacon->sigma_m, arrival.direction_base, arrival.covariance});
+  RigidTransform T_base_bearing = RigidTransform::Identity();  // the arrivals are in base_link's axes already
+  T_base_bearing.translation() = T_base_ir.translation();
+  return coarse_solver_.solve(bearings, *tilt, T_base_bearing, prior);
+}
+
+void PoseStage::reset() {
+  tilt_.reset();
+  last_seen_.reset();
+}
 
 }  // namespace lodestar

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lodestar/base/common/angle.hpp"
+#include "lodestar/base/measurement/diode_array.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 
 namespace lodestar::sim {
@@ -28,12 +28,8 @@ Announcement announcement(const Beacon& beacon, const Link& link, std::uint32_t 
 }  // namespace
 
 IrReceiver::IrReceiver(const IrReceiverParams& params, std::uint64_t seed) : params_(params), random_(seed, "ir") {
-  directions_.push_back(Eigen::Vector3d::UnitZ());
-  for (int i = 1; i < params.diodes; ++i) {
-    const double azimuth = 2 * kPi * (i - 1) / (params.diodes - 1);
-    directions_.emplace_back(std::sin(params.tilt_rad) * std::cos(azimuth),
-                             std::sin(params.tilt_rad) * std::sin(azimuth), std::cos(params.tilt_rad));
-  }
+  for (const auto& diode : DiodeArray::ring(params.diodes, params.tilt_rad).diodes)
+    directions_.push_back(diode.direction_ir);
 }
 
 std::vector<float> IrReceiver::levels(const Eigen::Vector3d& position_map, const BeaconLightParams& light,
@@ -63,6 +59,21 @@ RawIrFrame IrReceiver::junk() {
   for (auto& octet : frame.octets) octet = static_cast<std::uint8_t>(random_.index(256));
   for (std::size_t i = 0; i < directions_.size(); ++i) frame.levels.push_back(clip(random_.uniform(0, 0.1)));
   return frame;
+}
+
+std::vector<RawIrFrame> IrReceiver::on_air(const std::vector<Sender>& senders, const Link& link,
+                                           const BeaconLightParams& light, const Scene& scene,
+                                           const RigidTransform& T_map_base, int slot, std::uint32_t superframe) const {
+  const Eigen::Vector3d eye = (T_map_base * params_.T_base_ir).translation();
+  std::vector<RawIrFrame> out;
+  for (const Sender& sender : senders) {
+    if (!light.lit || sender.announced.slot != slot || scene.hidden(sender.position_map, eye)) continue;
+    RawIrFrame frame;
+    frame.octets = encode_ir_frame(announcement(sender.announced, link, superframe), link);
+    frame.levels = levels(sender.position_map, light, T_map_base);
+    out.push_back(std::move(frame));
+  }
+  return out;
 }
 
 std::vector<IrReceiver::Heard> IrReceiver::listen(const std::vector<Sender>& senders, const Link& link,

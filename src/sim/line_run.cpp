@@ -8,6 +8,7 @@ namespace lodestar::sim {
 LocalizationLine make_line(const Scenario& scenario, const Vehicle& vehicle) {
   LocalizationLine line(scenario.site, line_params(scenario.site, vehicle, scenario.camera.rate_hz));
   line.set_camera({CameraModel::create(scenario.camera.intrinsics).value(), scenario.T_base_camera});
+  line.set_ir_array(scenario.ir.T_base_ir);
   line.set_imu(scenario.imu.T_base_imu.translation());
   return line;
 }
@@ -16,6 +17,7 @@ std::optional<LocalizationLine::Outcome> feed(LocalizationLine& line, const Even
   if (const auto* imu = std::get_if<ImuSample>(&event.data)) line.add_imu(*imu);
   if (const auto* odometry = std::get_if<OdometrySample>(&event.data)) line.add_odometry(*odometry);
   if (const auto* frame = std::get_if<RawIrFrame>(&event.data)) line.add_ir_frame(*frame);
+  if (const auto* samples = std::get_if<IrSampleBlock>(&event.data)) line.add_ir_samples(*samples);
   const auto* image = std::get_if<Image>(&event.data);
   if (image == nullptr) return std::nullopt;
   auto outcome = line.process(*image);

@@ -46,12 +46,15 @@ Result<Scenario, Faults> load_scenario(const std::string& path) {
   std::string why;
   const auto text = read_file(path, why);
   if (!text) return Faults{{path, 0, why}};
+  return parse_scenario(*text, path);
+}
 
-  FaultLog faults(path);
+Result<Scenario, Faults> parse_scenario(const std::string& text, const std::string& file_name) {
+  FaultLog faults(file_name);
   Scenario scenario;
   Faults site_faults;
   try {
-    if (const auto root = parse_document(*text, faults)) {
+    if (const auto root = parse_document(text, faults)) {
       const Section file(YamlMap(*root, "", 1, kFileKeys, faults), faults);
       const Section identity = file.section("scenario", kScenarioKeys);
       read_identity(identity, scenario);

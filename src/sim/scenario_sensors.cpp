@@ -35,7 +35,8 @@ const std::vector<YamlKey> kIrKeys = {
     {"enabled", false},        {"mount", false},          {"diodes", false},
     {"tilt_deg", false},       {"half_angle_deg", false}, {"response_exponent", false},
     {"level_1m", false},       {"min_level", false},      {"level_noise", false},
-    {"bit_error_rate", false}, {"junk_rate_hz", false},   {"stamp_noise_s", false}};
+    {"bit_error_rate", false}, {"junk_rate_hz", false},   {"stamp_noise_s", false},
+    {"samples", false},        {"sample_noise", false}};
 const std::vector<YamlKey> kImuKeys = {{"enabled", false},
                                        {"mount", false},
                                        {"rate_hz", false},
@@ -153,6 +154,8 @@ void read_ir(const Section& section, Scenario& scenario) {
   section.number("bit_error_rate", within(0, 0.5), ir.bit_error_rate);
   section.number("junk_rate_hz", within(0, 1000), ir.junk_rate_hz);
   section.number("stamp_noise_s", within(0, 0.001), ir.stamp_noise_s);
+  section.flag("samples", scenario.ir_samples);
+  section.number("sample_noise", within(0, 1), ir.sample_noise);
 }
 
 void read_imu(const Section& section, Scenario& scenario) {

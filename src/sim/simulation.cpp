@@ -88,6 +88,13 @@ void Simulation::make_sensors() {
     loads_ = std::make_unique<LoadHandling>(*scenario_.loads, truck_->route(), scenario_.T_base_fork,
                                             scenario_.site.zones, scenario_.seed);
   if (scenario_.has_ir) ir_ = std::make_unique<IrReceiver>(scenario_.ir, scenario_.seed);
+  if (scenario_.ir_samples) {
+    IrSamplerParams sampler;
+    sampler.channels = scenario_.ir.diodes;
+    sampler.noise = scenario_.ir.sample_noise;
+    sampler.mains_hz = scenario_.mains_hz;
+    ir_sampler_ = std::make_unique<IrSampler>(sampler, scenario_.seed);
+  }
 }
 
 void Simulation::push(double received_s, decltype(Event::data) data) {
@@ -160,10 +167,21 @@ void Simulation::hear_slot() {
   ++slot_count_;
   const double duration_s = ir_frame_duration_s(link);
   const RigidTransform T_map_base = truck_->T_map_base(begin_s + 0.5 * duration_s);
+  if (ir_sampler_) return sample_slot(slot, superframe, begin_s, T_map_base);
   for (auto& heard : ir_->listen(senders_, link, scenario_.beacons, scene_, T_map_base, slot, superframe)) {
     heard.frame.stamp = stamp(begin_s + heard.offset_s);
     push(begin_s + heard.offset_s + duration_s + kIrLatency_s, std::move(heard.frame));
   }
+}
+
+void Simulation::sample_slot(int slot, std::uint32_t superframe, double begin_s, const RigidTransform& T_map_base) {
+  const Link& link = scenario_.site.link;
+  for (auto& sent : ir_->on_air(senders_, link, scenario_.beacons, scene_, T_map_base, slot, superframe))
+    ir_sampler_->send({begin_s, link.bit_rate_bps, sent.octets, sent.levels});
+  const double until_s = begin_s + link.slot_s;
+  const double first_s = ir_sampler_->time_s();
+  const int count = static_cast<int>(std::lround((until_s - first_s) * ir_sampler_->sample_rate_hz()));
+  push(until_s + kIrLatency_s, ir_sampler_->next(count, stamp(first_s)));
 }
 
 std::optional<Event> Simulation::next() {

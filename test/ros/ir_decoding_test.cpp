@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "lodestar/BeaconAnnouncement.h"
+#include "lodestar/ConfirmBeacon.h"
 #include "lodestar/GetBeacons.h"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
+#include "lodestar/ros/convert/ir_samples.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
+#include "lodestar/sim/ir_sampler.hpp"
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
@@ -57,6 +60,8 @@ class IrDecoding : public testing::Test {
   BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
   Inbox<BeaconAnnouncement> conflicts_{nh_, "/beacons/conflicts"};
+  Inbox<BeaconAnnouncement> confirmed_{nh_, "/beacons/confirmed"};
+  ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 10);
   Diagnostics diagnostics_{nh_};
 };
 
@@ -133,6 +138,27 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_TRUE(dropped(name(IrDrop::kConflict), 1));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 3; }));
   EXPECT_GE(diagnostics_.level(kNode), 1);
+  EXPECT_NE(diagnostics_.message(kNode).find("left out until confirmed"), std::string::npos)
+      << diagnostics_.message(kNode);
+
+  // Somebody looks after it and says so.
+  ConfirmBeacon confirm;
+  confirm.request.beacon_id = 99;
+  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  EXPECT_FALSE(confirm.response.success) << "never heard";
+  confirm.request.beacon_id = moved.beacon.value;
+  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  EXPECT_TRUE(confirm.response.success) << confirm.response.message;
+  EXPECT_TRUE(wait_for([&] { return confirmed_.size() == 1; }));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
+
+  // A frame that begins in another beacon's slot: refused, and the operator is told.
+  Announcement relayed = announcement(last.superframe + 2);
+  send(relayed, last.header.stamp + ros::Duration(site_.link.slot_s * (2 * site_.link.slot_count - last.slot) + 0.1));
+  EXPECT_TRUE(dropped(name(IrDrop::kSlot), 1));
+  EXPECT_TRUE(wait_for([&] {
+    return diagnostics_.message(kNode).find("no beacon of this site sends") != std::string::npos;
+  })) << diagnostics_.message(kNode);
 
   // The clock jumps back: the bag begins again and its frames count again.
   const std::size_t before_jump = announcements_.size();
@@ -140,6 +166,31 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   player_.play(1.0);
   EXPECT_TRUE(wait_for([&] { return announcements_.size() > before_jump + 5; }));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
+
+  // The other form: samples of the diodes, with the next frame of a beacon in them.
+  const auto latest = announcements_.last();
+  Announcement sampled = announcement(latest.superframe + 1);
+  const Beacon& beacon = site_.beacons[2];
+  sampled.beacon = beacon.id;
+  sampled.slot = static_cast<std::uint8_t>(beacon.slot);
+  sampled.position_map = beacon.position_map;
+  sampled.tones = beacon.tones;
+  constexpr double kLead_s = 0.005;
+  sim::IrSampler sampler({}, 1);
+  sampler.send({kLead_s, site_.link.bit_rate_bps, encode_ir_frame(sampled, site_.link), std::vector<float>(8, 0.1f)});
+  const ros::Time begin =
+      latest.header.stamp +
+      ros::Duration(site_.link.slot_s * (site_.link.slot_count + beacon.slot - latest.slot) - kLead_s);
+  const std::size_t before_samples = announcements_.size();
+  for (int block = 0; block < 5; ++block) {
+    const Stamp stamp = stamp_from(begin + ros::Duration(sampler.time_s()));
+    samples_.publish(ir_samples_message(sampler.next(1536, stamp), "ir_array"));
+  }
+  ASSERT_TRUE(wait_for([&] { return announcements_.size() > before_samples; }));
+  EXPECT_EQ(announcements_.last().beacon_id, beacon.id.value);
+  EXPECT_EQ(announcements_.last().superframe, sampled.superframe);
+  EXPECT_NEAR((announcements_.last().header.stamp - begin).toSec(), kLead_s, 1e-5);
+  EXPECT_EQ(announcements_.last().levels.size(), 8u);
 }
 
 }  // namespace

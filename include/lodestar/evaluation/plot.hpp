@@ -43,6 +43,17 @@ struct ErrorMapPlot {
 };
 void plot_error_map(const std::string& png_path, const ErrorMapPlot& plot);
 
+/// Curves over one axis, the y axis in powers of ten.
+struct CurvePlot {
+  struct Line {
+    std::string title;
+    std::vector<Eigen::Vector2d> points;  ///< y > 0; others are left out
+  };
+  std::string title, x_label, y_label;
+  std::vector<Line> lines;
+};
+void plot_curves(const std::string& png_path, const CurvePlot& plot);
+
 /// A site's floor plan: beacons coloured by their codes, all of one code ringed, the view of one camera position.
 struct SitePlot {
   std::string title;

@@ -25,7 +25,9 @@ class DetectionStage {
 
   /// The beacons in force (BeaconTable::beacons): those that sightings may be named after.
   /// @param heard those with a recent announcement
-  void set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard);
+  /// @param arrivals where those came from
+  void set_beacons(const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+                   const std::vector<Arrival>& arrivals);
 
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
@@ -52,6 +54,7 @@ class DetectionStage {
   CameraMount camera_;
   std::vector<Beacon> beacons_;
   std::vector<BeaconId> heard_;
+  std::vector<Arrival> arrivals_;
   std::optional<StateEstimate> estimate_;
 };
 

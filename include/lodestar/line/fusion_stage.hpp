@@ -15,8 +15,9 @@
 namespace lodestar {
 
 /// Fixes, sightings and motion in, the filtered pose out. Fixes start the filter (and restart it after a loss);
-/// sightings correct it while it runs; with `use_sightings` off, fixes do both. Where sightings leave several places
-/// open, and so make no fix, each is followed until one is left, and the filter starts there.
+/// sightings correct it while it runs, and fixes of other sources where there are none; with `use_sightings` off, fixes
+/// do both. Sightings come before the fix that was made of them. Where they leave several places open, and so make no
+/// fix, each is followed until one is left, and the filter starts there.
 class FusionStage {
  public:
   explicit FusionStage(const LineParams& params);
@@ -44,6 +45,7 @@ class FusionStage {
   bool use_sightings_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  std::optional<Stamp> sightings_stamp_;
 };
 
 }  // namespace lodestar

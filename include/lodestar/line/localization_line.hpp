@@ -3,11 +3,13 @@
 #include <optional>
 
 #include "lodestar/base/measurement/ir_frame.hpp"
+#include "lodestar/line/arrivals.hpp"
 #include "lodestar/line/detection_stage.hpp"
 #include "lodestar/line/fusion_stage.hpp"
 #include "lodestar/line/line_params.hpp"
 #include "lodestar/line/pose_stage.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
+#include "lodestar/sensing/irlink/ir_demodulator.hpp"
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 
 namespace lodestar {
@@ -28,11 +30,15 @@ class LocalizationLine {
   void set_camera(const CameraMount& camera);
   /// Where the inertial sensor sits, in base_link (m).
   void set_imu(const Eigen::Vector3d& imu_position_base);
+  /// Where the photodiodes sit; without it no direction is read from their levels.
+  void set_ir_array(const RigidTransform& T_base_ir);
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
 
-  /// The accepted announcement, or why the frame was dropped.
+  /// The accepted announcement, or why the frame was dropped. While the camera is blind it makes a coarse fix.
   Result<Announcement, IrDrop> add_ir_frame(const RawIrFrame& frame);
+  /// Frames from the samples of the other kind of receiver; each goes through add_ir_frame.
+  void add_ir_samples(const IrSampleBlock& samples);
 
   Result<Outcome, FrameDrop> process(const Image& image);
 
@@ -45,10 +51,14 @@ class LocalizationLine {
 
  private:
   void share_beacons();
+  bool plausible(const Announcement& announcement) const;
+  void fix_by_arrivals(Stamp stamp);
 
   Duration heard_for_;
+  IrDemodulator demodulator_;
   IrFrameDecoder decoder_;
   BeaconTable table_;
+  Arrivals arrivals_;
   DetectionStage detection_;
   PoseStage pose_;
   FusionStage fusion_;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lodestar/base/measurement/arrival.hpp"
 #include "lodestar/base/measurement/bearing.hpp"
 #include "lodestar/base/measurement/motion.hpp"
 #include "lodestar/base/measurement/pose_estimate.hpp"
@@ -19,7 +20,8 @@ namespace lodestar {
 BeaconBearings bearings(const Sightings& sightings, const CameraModel& camera, const std::vector<Beacon>& beacons,
                         double calibration_sigma_px);
 
-/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver.
+/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver. While the camera sees nothing, the directions
+/// that announcements came from make a coarse fix.
 class PoseStage {
  public:
   PoseStage(const PoseSolverParams& solver, const TiltFilterParams& tilt, double calibration_sigma_px);
@@ -32,7 +34,17 @@ class PoseStage {
   void add_odometry(const OdometrySample& sample);
 
   /// The pose of base_link at the sightings' stamp, or why there is none.
-  Result<Fix, NoFix> process(const Sightings& sightings);
+  /// @param arrivals tell two poses apart that the sightings leave
+  Result<Fix, NoFix> process(const Sightings& sightings, const std::vector<Arrival>& arrivals);
+
+  /// No blob with a code was seen for kBlindAfter before `now`, or since this was asked first.
+  bool camera_is_blind(Stamp now);
+  /// The pose of base_link at `stamp` from arrivals alone, some decimetres wide (docs/math/irlink.md).
+  /// @param prior settles which of two poses it is
+  Result<Fix, NoFix> coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir, Stamp stamp,
+                                const std::optional<PoseEstimate>& prior) const;
+
+  static constexpr Duration kBlindAfter = std::chrono::seconds(2);
 
   /// All poses that these names leave open, or why there is none.
   Result<PoseSolutions, NoFix> solutions(const Sightings& sightings) const;
@@ -44,12 +56,14 @@ class PoseStage {
   /// Calls solve(bearings, tilt) when camera and gravity are known.
   template <class Solve>
   auto with_tilt(const Sightings& sightings, Solve&& solve) const -> decltype(solve(BeaconBearings{}, Tilt{}));
+  const Beacon* find(BeaconId id) const;
 
-  PoseSolver solver_;
+  PoseSolver solver_, coarse_solver_;
   TiltFilter tilt_;
   double calibration_sigma_px_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  std::optional<Stamp> last_seen_;  ///< blob with a code; until there is one: the start
   DropCounts<NoFix> refusals_;
 };
 

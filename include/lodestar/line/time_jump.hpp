@@ -13,8 +13,8 @@ enum class TimeVerdict {
   kReset,  ///< time went backwards: forget what was, then use the measurement
 };
 
-/// Notices that time went backwards: the clock did (a recording that starts over), or, where the clock does not show it,
-/// several measurements in a row are older than those before.
+/// Notices that time went backwards: the clock did (a recording that starts over), or, where the clock does not show
+/// it, several measurements in a row are older than those before.
 class TimeJump {
  public:
   static constexpr double kStep_s = 1.0;    ///< a stamp this far from the newest is an outlier

@@ -24,6 +24,7 @@ struct IrReceiverParams {
   double bit_error_rate = 0;
   double junk_rate_hz = 0;  ///< frames of noise alone
   double stamp_noise_s = 20e-6;
+  double sample_noise = 0.01;  ///< of each sample, where samples are handed over
 };
 
 /// The photodiode array and its decoder of bits (optical_link.md, sections 2 and 3).
@@ -46,6 +47,11 @@ class IrReceiver {
   };
   std::vector<Heard> listen(const std::vector<Sender>& senders, const Link& link, const BeaconLightParams& light,
                             const Scene& scene, const RigidTransform& T_map_base, int slot, std::uint32_t superframe);
+
+  /// Every frame on air in one slot, without its stamp and before noise: what a receiver that samples gets to hear.
+  std::vector<RawIrFrame> on_air(const std::vector<Sender>& senders, const Link& link, const BeaconLightParams& light,
+                                 const Scene& scene, const RigidTransform& T_map_base, int slot,
+                                 std::uint32_t superframe) const;
 
   /// Level of each diode, before noise, of a sender as strong as `light`.
   std::vector<float> levels(const Eigen::Vector3d& position_map, const BeaconLightParams& light,

@@ -50,6 +50,7 @@ struct Scenario {
   RigidTransform T_base_fork{Eigen::Translation3d(0.875, 0, 0.08)};  ///< at its lowest, x along the tines
   BeaconLightParams beacons;
   IrReceiverParams ir;
+  bool ir_samples = false;  ///< the receiver hands over samples, not frames
   bool has_camera = true, has_ir = true, has_imu = true, has_odometry = true;
   ImuParams imu;
   WheelOdometryParams odometry;
@@ -70,6 +71,10 @@ struct Scenario {
 /// Reads and checks a scenario file (docs/nodes/simulator.md); every fault is listed with file and line. The site file
 /// that it names is looked for beside it, and its tones are checked against the camera's rate.
 Result<Scenario, Faults> load_scenario(const std::string& path);
+
+/// The same for text at hand. `file_name` is for the faults and for the site file. Throws nothing, whatever the text
+/// holds.
+Result<Scenario, Faults> parse_scenario(const std::string& text, const std::string& file_name);
 
 /// The same with survey, calibration and inertial sensor exact, the floor flat and the truck stiff. What remains is the
 /// camera's noise.

@@ -13,6 +13,7 @@
 #include "lodestar/sim/fix_sensor.hpp"
 #include "lodestar/sim/imu.hpp"
 #include "lodestar/sim/ir_receiver.hpp"
+#include "lodestar/sim/ir_sampler.hpp"
 #include "lodestar/sim/load_handling.hpp"
 #include "lodestar/sim/scenario.hpp"
 #include "lodestar/sim/truck.hpp"
@@ -41,7 +42,9 @@ struct TruePallets {
 /// One sample and when it reaches the computer.
 struct Event {
   Stamp received;
-  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix, LoadSample, TruePallets> data;
+  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, IrSampleBlock, TrueBase, TrueCamera, Fix, LoadSample,
+               TruePallets>
+      data;
 };
 
 /// A whole run of a scenario: what the sensors say, in the order of reception. The same seed gives the same run, bit by
@@ -81,6 +84,7 @@ class Simulation {
   void take_fix();
   void hear_slot();
   void take_load();
+  void sample_slot(int slot, std::uint32_t superframe, double begin_s, const RigidTransform& T_map_base);
 
   Scenario scenario_;
   std::vector<Beacon> true_beacons_;
@@ -92,6 +96,7 @@ class Simulation {
   std::unique_ptr<Imu> imu_;
   std::unique_ptr<WheelOdometry> odometry_;
   std::unique_ptr<IrReceiver> ir_;
+  std::unique_ptr<IrSampler> ir_sampler_;  ///< where the receiver hands over samples
   std::unique_ptr<FixSensor> fixes_;
   std::unique_ptr<LoadHandling> loads_;
   std::uint64_t imu_count_ = 0, odometry_count_ = 0, slot_count_ = 0, fix_count_ = 0, load_count_ = 0, truth_count_ = 0;

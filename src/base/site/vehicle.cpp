@@ -1,5 +1,7 @@
 #include "lodestar/base/site/vehicle.hpp"
 
+#include <cmath>
+
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/base/yaml/yaml_document.hpp"
 #include "lodestar/base/yaml/yaml_map.hpp"
@@ -10,7 +12,10 @@ namespace {
 
 const std::vector<YamlKey> kFileKeys = {{"vehicle", false},  {"camera", false}, {"imu", false},     {"odometry", false},
                                         {"infrared", false}, {"fork", false},   {"pallets", false}, {"floor", false}};
-const std::vector<YamlKey> kInfraredKeys = {{"receiver", false}};
+const std::vector<YamlKey> kInfraredKeys = {
+    {"receiver", false},       {"mount", false},       {"diodes", false},    {"response_exponent", false},
+    {"half_angle_deg", false}, {"level_noise", false}, {"gain_sigma", false}};
+const std::vector<YamlKey> kDiodeKeys = {{"azimuth_deg", true}, {"tilt_deg", true}, {"gain", false}};
 const std::vector<YamlKey> kForkKeys = {
     {"mount", false}, {"height_sigma_m", false}, {"seat_sigma_m", false}, {"seat_sigma_deg", false}};
 const std::vector<YamlKey> kPalletKeys = {{"type", true}, {"length_m", true}, {"width_m", true}, {"deck_m", false}};
@@ -118,6 +123,32 @@ FloorHeight read_floor(const YamlMap& map) {
   return floor;
 }
 
+DiodeArray::Diode read_diode(const YamlMap& map) {
+  const double azimuth_rad = radians(map.number("azimuth_deg", within(-360, 360)).value_or(0));
+  const double tilt_rad = radians(map.number("tilt_deg", within(0, 180)).value_or(0));
+  DiodeArray::Diode diode;
+  diode.direction_ir << std::sin(tilt_rad) * std::cos(azimuth_rad), std::sin(tilt_rad) * std::sin(azimuth_rad),
+      std::cos(tilt_rad);
+  read(map, "gain", above(0, 100), diode.gain);
+  return diode;
+}
+
+void read_infrared(const YamlMap& map, FaultLog& faults, Vehicle& vehicle) {
+  vehicle.has_ir_receiver = map.boolean("receiver").value_or(true);
+  vehicle.T_base_ir = read_mount(map);
+  DiodeArray& array = vehicle.diodes;
+  const std::vector<YAML::Node> diodes = map.list("diodes");
+  if (!diodes.empty()) array.diodes.clear();
+  for (const YAML::Node& node : diodes) {
+    const std::string path = map.path("diodes") + "[" + std::to_string(array.diodes.size()) + "]";
+    array.diodes.push_back(read_diode(YamlMap(node, path, map.line("diodes"), kDiodeKeys, faults)));
+  }
+  read(map, "response_exponent", within(0.1, 20), array.response_exponent);
+  read_degrees(map, "half_angle_deg", within(1, 90), array.half_angle_rad);
+  read(map, "level_noise", above(0, 1), array.level_noise);
+  read(map, "gain_sigma", within(0, 1), array.gain_sigma);
+}
+
 Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
   Vehicle vehicle;
@@ -128,7 +159,7 @@ Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   read_fork(file.section("fork", kForkKeys), vehicle);
   read_pallets(file, faults, vehicle);
   if (file.has("floor")) vehicle.floor = read_floor(file.section("floor", kFloorKeys));
-  vehicle.has_ir_receiver = file.section("infrared", kInfraredKeys).boolean("receiver").value_or(true);
+  read_infrared(file.section("infrared", kInfraredKeys), faults, vehicle);
   return vehicle;
 }
 

@@ -62,6 +62,32 @@ Eigen::MatrixXd distances_chi2(const std::vector<Sighting>& sightings, const std
   return chi2;
 }
 
+/// Squared distances of the blobs' bearings from the directions that their beacons' announcements came from; infinite
+/// where the codes differ, or where nothing was heard.
+Eigen::MatrixXd distances_chi2(const std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
+                               const std::vector<Arrival>& arrivals, const CameraModel& camera,
+                               const RigidTransform& T_base_camera, double arrival_sigma_rad) {
+  Eigen::MatrixXd chi2 =
+      Eigen::MatrixXd::Constant(static_cast<int>(sightings.size()), static_cast<int>(beacons.size()), kNever);
+  for (int b = 0; b < chi2.cols(); ++b) {
+    const auto arrival = std::find_if(arrivals.begin(), arrivals.end(),
+                                      [&](const Arrival& candidate) { return candidate.beacon == beacons[b].id; });
+    if (arrival == arrivals.end()) continue;
+    // Filled up along the direction, where the unit vector says nothing.
+    const Eigen::Vector3d& u = arrival->direction_base;
+    const Eigen::Matrix3d S =
+        arrival->covariance + u * u.transpose() + arrival_sigma_rad * arrival_sigma_rad * Eigen::Matrix3d::Identity();
+    for (int s = 0; s < chi2.rows(); ++s) {
+      if (!usable(sightings[s]) || sightings[s].tones != beacons[b].tones) continue;
+      const auto bearing = camera.bearing(sightings[s].pixel);
+      if (!bearing) continue;
+      const Eigen::Vector3d off = T_base_camera.linear() * bearing->direction - u;
+      chi2(s, b) = off.dot(S.inverse() * off);
+    }
+  }
+  return chi2;
+}
+
 void name_by_place(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons, const Eigen::MatrixXd& chi2,
                    double gate_chi2, double margin_chi2) {
   for (int s = 0; s < chi2.rows(); ++s) {
@@ -93,9 +119,19 @@ void name_by_code(std::vector<Sighting>& sightings, const std::vector<Beacon>& b
                   const std::vector<BeaconId>& heard, bool require_announcement) {
   for (Sighting& sighting : sightings) {
     const auto shows_it = [&](const Sighting& other) { return other.tones == sighting.tones; };
-    if (!usable(sighting) || std::count_if(sightings.begin(), sightings.end(), shows_it) != 1) continue;
+    if (sighting.beacon || !usable(sighting) || std::count_if(sightings.begin(), sightings.end(), shows_it) != 1)
+      continue;
     sighting.beacon = meant_by(sighting.tones, beacons, heard, require_announcement);
   }
+}
+
+/// A name that the direction of its beacon's announcement contradicts is a mirror image's, or a stranger's.
+void unname_contradicted(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
+                         const Eigen::MatrixXd& chi2, double gate_chi2) {
+  for (int s = 0; s < chi2.rows(); ++s)
+    for (int b = 0; b < chi2.cols(); ++b)
+      if (sightings[s].beacon == beacons[b].id && chi2(s, b) < kNever && chi2(s, b) > gate_chi2)
+        sightings[s].beacon.reset();
 }
 
 }  // namespace
@@ -103,17 +139,22 @@ void name_by_code(std::vector<Sighting>& sightings, const std::vector<Beacon>& b
 BeaconNamer::BeaconNamer(const BeaconNamerParams& params) : params_(params) {}
 
 void BeaconNamer::name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
-                       const CameraModel& camera, const RigidTransform& T_base_camera,
-                       const std::optional<PoseEstimate>& estimate) const {
+                       const std::vector<Arrival>& arrivals, const CameraModel& camera,
+                       const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& estimate) const {
   for (Sighting& sighting : sightings.sightings) sighting.beacon.reset();
   if (sightings.sightings.empty() || beacons.empty()) return;
+  const double gate_chi2 = chi_square_quantile(params_.gate_probability, 2);
   if (!estimate || !usable(*estimate)) {
+    const Eigen::MatrixXd chi2 =
+        distances_chi2(sightings.sightings, beacons, arrivals, camera, T_base_camera, params_.arrival_sigma_rad);
+    name_by_place(sightings.sightings, beacons, chi2, gate_chi2, params_.margin_chi2);
     name_by_code(sightings.sightings, beacons, heard, params_.require_announcement);
+    unname_contradicted(sightings.sightings, beacons, chi2, gate_chi2);
     return;
   }
   name_by_place(sightings.sightings, beacons,
                 distances_chi2(sightings.sightings, beacons, camera, T_base_camera, *estimate, params_.model_sigma_px),
-                chi_square_quantile(params_.gate_probability, 2), params_.margin_chi2);
+                gate_chi2, params_.margin_chi2);
 }
 
 }  // namespace lodestar

@@ -93,12 +93,26 @@ double chi2_from(const PoseEstimate& prior, const Fix& fix) {
   return difference.dot((four(fix.covariance) + four(prior.covariance)).inverse() * difference);
 }
 
-/// Which of several equally good poses the prior means, or none in doubt.
-const Fix* chosen_by(const PoseEstimate& prior, const PoseSolutions& solutions, double gate_chi2, double margin_chi2) {
+/// Squared distance of the witnesses' bearings from those that the fix would have them see.
+double chi2_from(const std::vector<Witness>& witnesses, const Fix& fix) {
+  double sum = 0;
+  for (const Witness& witness : witnesses) {
+    const Eigen::Vector3d expected = (fix.T_map_base.inverse() * witness.position_map).normalized();
+    const Eigen::Vector3d off = witness.direction_base - expected;
+    // The covariance leaves out the way along the bearing, where the unit vector says nothing.
+    const Eigen::Matrix3d along = witness.direction_base * witness.direction_base.transpose();
+    sum += off.dot((witness.covariance + along).inverse() * off);
+  }
+  return sum;
+}
+
+/// Which of several equally good poses is nearest by this squared distance, or none in doubt.
+template <class Distance>
+const Fix* nearest_of(const PoseSolutions& solutions, double gate_chi2, double margin_chi2, Distance&& chi2_of) {
   const Fix* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity(), next = least;
   for (const PoseSolution& solution : solutions) {
-    const double chi2 = chi2_from(prior, solution.fix);
+    const double chi2 = chi2_of(solution.fix);
     if (chi2 < least) {
       next = std::exchange(least, chi2);
       nearest = &solution.fix;
@@ -306,13 +320,19 @@ Result<PoseSolutions, NoFix> PoseSolver::solutions(const BeaconBearings& bearing
 }
 
 Result<Fix, NoFix> PoseSolver::solve(const BeaconBearings& bearings, const Tilt& tilt,
-                                     const RigidTransform& T_base_camera,
-                                     const std::optional<PoseEstimate>& prior) const {
+                                     const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& prior,
+                                     const std::vector<Witness>& witnesses) const {
   auto found = solutions(bearings, tilt, T_base_camera);
   if (!found) return found.error();
   PoseSolutions solutions = std::move(found).value();
   if (solutions.size() == 1) return std::move(solutions.front().fix);
-  const Fix* chosen = prior ? chosen_by(*prior, solutions, prior_gate_chi2_, params_.margin_chi2) : nullptr;
+  const Fix* chosen = nullptr;
+  if (prior)
+    chosen = nearest_of(solutions, prior_gate_chi2_, params_.margin_chi2,
+                        [&](const Fix& fix) { return chi2_from(*prior, fix); });
+  if (!chosen && !witnesses.empty())
+    chosen = nearest_of(solutions, gate_chi2_ * static_cast<double>(witnesses.size()), params_.margin_chi2,
+                        [&](const Fix& fix) { return chi2_from(witnesses, fix); });
   if (!chosen) return NoFix::kAmbiguous;
   if (!within_limits(*chosen)) return NoFix::kDegenerate;
   return *chosen;

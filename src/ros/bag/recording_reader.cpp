@@ -15,6 +15,7 @@
 #include "lodestar/ros/convert/image.hpp"
 #include "lodestar/ros/convert/imu.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
+#include "lodestar/ros/convert/ir_samples.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/convert/transform.hpp"
@@ -158,6 +159,8 @@ class RecordingReader::Impl {
         handle<geometry_msgs::PoseWithCovarianceStamped>(id, [this](const auto& pose) { return fix(*pose); });
       else if (topic == topics.ir_frames)
         handle<IrFrame>(id, [](const auto& frame) { return conversion(ir_frame_from(*frame)); });
+      else if (topic == topics.ir_samples)
+        handle<IrSamples>(id, [](const auto& samples) { return conversion(ir_samples_from(*samples)); });
     }
   }
 

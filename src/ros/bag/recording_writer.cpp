@@ -10,6 +10,7 @@
 #include "lodestar/ros/convert/image.hpp"
 #include "lodestar/ros/convert/imu.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
+#include "lodestar/ros/convert/ir_samples.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
@@ -135,6 +136,10 @@ void RecordingWriter::write(Stamp received, const ImuSample& sample) {
 void RecordingWriter::write(Stamp received, const OdometrySample& sample) {
   impl_->write(received, impl_->topics().odometry,
                odometry_message(sample, impl_->frames().odom, impl_->frames().base));
+}
+
+void RecordingWriter::write(Stamp received, const IrSampleBlock& samples) {
+  impl_->write(received, impl_->topics().ir_samples, ir_samples_message(samples, impl_->frames().ir_array));
 }
 
 void RecordingWriter::write(Stamp received, const RawIrFrame& frame) {

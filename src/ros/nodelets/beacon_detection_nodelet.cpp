@@ -37,7 +37,10 @@ void BeaconDetectionNodelet::onInit() {
 
 void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), edge_->health(), edge_->vehicle().T_base_camera);
-  beacons_ = std::make_unique<BeaconInput>(nh, edge_->site(), edge_->health(), [](const auto&) {});
+  arrivals_ = std::make_unique<ArrivalInput>(edge_->vehicle(), edge_->site().link, edge_->mounts(), edge_->health());
+  beacons_ = std::make_unique<BeaconInput>(
+      nh, edge_->site(), edge_->health(), [](const auto&) {},
+      [this](const Announcement& a) { arrivals_->arrivals().add(a); });
   motion_ = std::make_unique<MotionInput>(
       nh, *edge_, [this](const ImuSample& sample, const RigidTransform&) { take_motion(sample); },
       [this](const OdometrySample& sample) { take_motion(sample); });
@@ -52,6 +55,7 @@ void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
 }
 
 void BeaconDetectionNodelet::take_motion(const Motion& sample) {
+  if (const auto* odometry = std::get_if<OdometrySample>(&sample)) arrivals_->arrivals().add_odometry(*odometry);
   if (stage_) return add_motion(sample);
   early_motion_.push_back(sample);
   if (early_motion_.size() > kEarlyMotion) early_motion_.pop_front();
@@ -109,7 +113,7 @@ void BeaconDetectionNodelet::process(const Image& image) {
   if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
   camera_revision_ = camera_->revision();
   const BeaconTable& table = beacons_->table();
-  stage_->set_beacons(table.beacons(), table.heard(image.stamp, heard_for_));
+  stage_->set_beacons(table.beacons(), table.heard(image.stamp, heard_for_), arrivals_->arrivals().recent(image.stamp));
 
   const auto sightings = stage_->process(image);
   if (!sightings) return;
@@ -132,6 +136,7 @@ void BeaconDetectionNodelet::report(Health::Status& status) {
 void BeaconDetectionNodelet::reset() {
   if (stage_) stage_->reset();
   beacons_->reset_time();
+  arrivals_->arrivals().reset();
   early_images_.clear();
   early_motion_.clear();
 }

@@ -5,23 +5,35 @@
 namespace lodestar {
 
 BeaconInput::BeaconInput(ros::NodeHandle& nh, const Site& site, Health& health,
-                         std::function<void(const std::vector<Beacon>&)> on_change)
+                         std::function<void(const std::vector<Beacon>&)> on_change,
+                         std::function<void(const Announcement&)> on_announcement)
     : health_(health),
       watch_(health.watch("announcements", Need::kOptional)),
       table_(site),
       on_change_(std::move(on_change)),
-      announcements_(nh.subscribe("beacons/announcements", 200, &BeaconInput::take, this)),
-      conflicts_(nh.subscribe("beacons/conflicts", 200, &BeaconInput::take, this)) {
+      on_announcement_(std::move(on_announcement)) {
+  const auto subscribe = [&](const char* topic, Word word) {
+    return nh.subscribe<BeaconAnnouncement>(
+        topic, 200, [this, word](const BeaconAnnouncementConstPtr& message) { take(*message, word); });
+  };
+  announcements_ = subscribe("beacons/announcements", Word::kAnnouncement);
+  conflicts_ = subscribe("beacons/conflicts", Word::kConflict);
+  confirmed_ = subscribe("beacons/confirmed", Word::kConfirmed);
   revision_ = table_.revision();
   on_change_(table_.beacons());
   health_.add_report([this](Health::Status& status) { status.add("beacons in force", table_.beacons().size()); });
 }
 
-void BeaconInput::take(const BeaconAnnouncementConstPtr& message) {
+void BeaconInput::take(const BeaconAnnouncement& message, Word word) {
   watch_.tick();
-  const auto announcement = announcement_from(*message);
+  const auto announcement = announcement_from(message);
   if (!announcement) return health_.drop(announcement.error());
-  table_.accept(*announcement);
+  if (word == Word::kConfirmed) {
+    table_.confirm(*announcement);
+  } else if (!table_.accept(*announcement)) {
+    on_announcement_(*announcement);
+  }
+  if (word == Word::kConflict) table_.distrust(announcement->beacon);
   if (table_.revision() == revision_) return;
   revision_ = table_.revision();
   on_change_(table_.beacons());

@@ -6,11 +6,9 @@ namespace lodestar {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-StaleLimits read_stale_limits(ParamReader& params) {
-  StaleLimits limits;
-  limits.warn_s = params.number("stale_warn_s", limits.warn_s, {0.01, 3600});
-  limits.error_s = params.number("stale_error_s", limits.error_s, {0.01, 3600});
-  return limits;
+StaleLimits read_stale_limits(ParamReader& params, StaleLimits otherwise) {
+  return {params.number("stale_warn_s", otherwise.warn_s, {0.01, 3600}),
+          params.number("stale_error_s", otherwise.error_s, {0.01, 3600})};
 }
 
 StreamWatch::StreamWatch(std::string name, Need need, const StaleLimits& limits)

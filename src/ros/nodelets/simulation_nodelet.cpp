@@ -14,6 +14,7 @@
 #include "lodestar/ros/convert/image.hpp"
 #include "lodestar/ros/convert/imu.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
+#include "lodestar/ros/convert/ir_samples.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
@@ -68,6 +69,7 @@ void SimulationNodelet::advertise() {
   imu_ = nh.advertise<sensor_msgs::Imu>("imu/data", 200);
   odometry_ = nh.advertise<nav_msgs::Odometry>("odom", 50);
   ir_ = nh.advertise<IrFrame>("ir/frames", 50);
+  if (scenario_.ir_samples) ir_samples_ = nh.advertise<IrSamples>("ir/samples", 50);
   if (scenario_.fixes) fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 50);
   if (scenario_.loads) {
     load_ = nh.advertise<LoadState>("load", 50);
@@ -128,6 +130,8 @@ void SimulationNodelet::publish(const OdometrySample& sample) {
 }
 
 void SimulationNodelet::publish(const RawIrFrame& frame) { ir_.publish(ir_frame_message(frame, kIr)); }
+
+void SimulationNodelet::publish(const IrSampleBlock& samples) { ir_samples_.publish(ir_samples_message(samples, kIr)); }
 
 void SimulationNodelet::publish(const Fix& fix) { fix_.publish(pose_estimate_message(fix, map_frame_)); }
 

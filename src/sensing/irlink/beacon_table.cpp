@@ -57,7 +57,7 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
 
 std::optional<IrDrop> BeaconTable::compare_with_site(Entry& entry, const Announcement& announcement) {
   const Beacon& beacon = entry.beacon;
-  set_conflict(entry, !agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement));
+  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement)) set_conflict(entry, true);
   if (entry.conflict) return IrDrop::kConflict;
   return std::nullopt;
 }
@@ -89,9 +89,30 @@ void BeaconTable::learn(Entry& entry, const Announcement& announcement) {
                     beacon.sigma_m == sigma_m(announcement);
   if (same) return;
   beacon = {announcement.beacon, announcement.position_map, announcement.tones,
-            announcement.slot,   Waveform::kSine,           sigma_m(announcement)};
+            announcement.slot,   beacon.waveform,           sigma_m(announcement)};
   entry.conflict = false;
   ++revision_;
+}
+
+void BeaconTable::distrust(BeaconId id) {
+  const auto known = entries_.find(id);
+  if (known != entries_.end()) set_conflict(known->second, true);
+}
+
+bool BeaconTable::confirm(BeaconId id) {
+  const auto known = entries_.find(id);
+  if (known == entries_.end() || !known->second.last) return false;
+  confirm(*known->second.last);
+  return true;
+}
+
+void BeaconTable::confirm(const Announcement& announcement) {
+  Entry& entry = entries_[announcement.beacon];
+  entry.last = announcement;
+  const Beacon& beacon = entry.beacon;
+  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement) || beacon.slot != announcement.slot)
+    learn(entry, announcement);
+  set_conflict(entry, false);
 }
 
 std::vector<Beacon> BeaconTable::beacons() const {

@@ -73,6 +73,8 @@ const char* name(IrDrop reason) {
       return "superframe";
     case IrDrop::kStamp:
       return "stamp";
+    case IrDrop::kDirection:
+      return "direction";
     case IrDrop::kConflict:
       return "conflict";
     case IrDrop::kFull:

@@ -2,15 +2,11 @@
 
 #include <sodium/crypto_shorthash.h>
 
-#include <boost/crc.hpp>
+#include "crc16.hpp"
 
 namespace lodestar {
 
-std::uint16_t frame_crc(const IrOctets& octets) {
-  boost::crc_optimal<16, 0x1021, 0xFFFF, 0, false, false> crc;
-  crc.process_bytes(octets.data(), ir_field::kCrc);
-  return crc.checksum();
-}
+std::uint16_t frame_crc(const IrOctets& octets) { return crc16(octets.data(), ir_field::kCrc); }
 
 std::uint64_t frame_tag(const IrOctets& octets, const std::array<std::uint8_t, 16>& key) {
   static_assert(crypto_shorthash_KEYBYTES == 16 && crypto_shorthash_BYTES == 8, "SipHash-2-4");

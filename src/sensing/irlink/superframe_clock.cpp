@@ -7,6 +7,7 @@ namespace lodestar {
 namespace {
 
 constexpr double kClockError = 200e-6;
+constexpr double kSlotShare = 0.25;  // of a slot, that a frame may begin early or late by
 
 /// b - a where a counter may have wrapped around between them.
 std::int32_t counted(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(b - a); }
@@ -21,11 +22,22 @@ double elapsed_s(Stamp a, Stamp b) {
 SuperframeClock::SuperframeClock(const Link& link)
     : slot_s_(link.slot_s), superframe_s_(link.slot_s * link.slot_count), has_key_(link.key.has_value()) {}
 
-bool SuperframeClock::in_phase(const Instant& reference, const Instant& instant) const {
-  const double by_stamp_s = elapsed_s(reference.stamp, instant.stamp);
+/// By how much the frame comes later after the reference than counter and slot say.
+double SuperframeClock::late_s(const Instant& reference, const Instant& instant) const {
   const double by_counter_s =
       counted(reference.superframe, instant.superframe) * superframe_s_ + (instant.slot - reference.slot) * slot_s_;
-  return std::abs(by_stamp_s - by_counter_s) <= superframe_s_ + kClockError * std::abs(by_stamp_s);
+  return elapsed_s(reference.stamp, instant.stamp) - by_counter_s;
+}
+
+bool SuperframeClock::in_phase(const Instant& reference, const Instant& instant) const {
+  const double drift_s = kClockError * std::abs(elapsed_s(reference.stamp, instant.stamp));
+  return std::abs(late_s(reference, instant)) <= kSlotShare * slot_s_ + drift_s;
+}
+
+/// Whether the beacon's own counter has grown.
+bool SuperframeClock::advances(const Instant& instant, BeaconId beacon) const {
+  const auto last = superframes_.find(beacon);
+  return last == superframes_.end() || counted(last->second, instant.superframe) > 0;
 }
 
 bool SuperframeClock::learn(const Instant& instant) {
@@ -50,13 +62,18 @@ std::optional<IrDrop> SuperframeClock::accept(const Announcement& announcement) 
   const Instant instant{announcement.stamp, announcement.superframe, announcement.slot};
   const bool old = newest_ && elapsed_s(newest_->stamp, instant.stamp) < -superframe_s_;
   if (newest_ && !in_phase(*newest_, instant)) {
-    if (!learn(instant)) return old ? IrDrop::kStamp : IrDrop::kSuperframe;
-    reset();
+    const double late = late_s(*newest_, instant);
+    const bool early = has_key_ && late < 0;
+    if (!early && !learn(instant)) {
+      if (old) return IrDrop::kStamp;
+      const bool in_superframe = std::abs(late) < superframe_s_ && advances(instant, announcement.beacon);
+      return in_superframe ? IrDrop::kSlot : IrDrop::kSuperframe;
+    }
+    early ? newest_.reset() : reset();
   } else if (old) {
     return IrDrop::kStamp;
   }
-  const auto last = superframes_.find(announcement.beacon);
-  if (last != superframes_.end() && counted(last->second, instant.superframe) <= 0) return IrDrop::kSuperframe;
+  if (!advances(instant, announcement.beacon)) return IrDrop::kSuperframe;
   take(instant, announcement.beacon);
   return std::nullopt;
 }

@@ -44,14 +44,14 @@ TEST(Bearings, AreThoseOfNamedAndKnownBeaconsInsideTheLens) {
 
 TEST(PoseStage, SaysWhatIsMissing) {
   PoseStage stage({}, {}, 0.3);
-  EXPECT_EQ(stage.process({}).error(), NoFix::kNoCamera);
+  EXPECT_EQ(stage.process({}, {}).error(), NoFix::kNoCamera);
   CameraMount camera;
   camera.model = *CameraModel::create(test::fisheye_640());
   stage.set_camera(camera);
-  EXPECT_EQ(stage.process({}).error(), NoFix::kNoTilt);
+  EXPECT_EQ(stage.process({}, {}).error(), NoFix::kNoTilt);
   stage.add_imu({Stamp{} + std::chrono::seconds(1), {0, 0, 0}, {0, 0, 9.81}});
   stage.reset();
-  EXPECT_EQ(stage.process({}).error(), NoFix::kNoTilt) << "a reset forgets gravity";
+  EXPECT_EQ(stage.process({}, {}).error(), NoFix::kNoTilt) << "a reset forgets gravity";
   EXPECT_EQ(stage.refusals()[NoFix::kNoTilt], 2u);
 }
 

@@ -31,4 +31,7 @@ struct StateEstimate : PoseEstimate {
   Eigen::Matrix<double, 6, 6> twist_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
+/// The estimate moved on (or back) to `stamp` by constant velocity; the covariance stays.
+PoseEstimate moved_on(const StateEstimate& estimate, Stamp stamp);
+
 }  // namespace lodestar

@@ -7,6 +7,7 @@
 #include "lodestar/base/common/fault.hpp"
 #include "lodestar/base/common/result.hpp"
 #include "lodestar/base/geometry/rigid_transform.hpp"
+#include "lodestar/base/measurement/diode_array.hpp"
 #include "lodestar/base/site/pallet_size.hpp"
 
 namespace lodestar {
@@ -31,6 +32,8 @@ struct Vehicle {
   std::optional<double> camera_rate_hz;      ///< empty: from the stamps
   std::optional<double> camera_white_level;  ///< grey level at which pixels clip; empty: the format's largest
   double camera_time_offset_s = 0;           ///< added to each image's stamp
+  std::optional<RigidTransform> T_base_ir;   ///< empty: from /tf_static
+  DiodeArray diodes = DiodeArray::ring();    ///< of the IR receiver, about T_base_ir
   bool has_ir_receiver = true;               ///< off: blobs are named by their code though nothing was announced
   double mains_hz = 50;                      ///< 50 or 60
   double calibration_sigma_px = 0.3;         ///< of the lens model, common to neighbouring pixels

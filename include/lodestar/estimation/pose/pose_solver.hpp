@@ -19,6 +19,13 @@ struct Tilt {
   double sigma_rad = 0.005;
 };
 
+/// A bearing too coarse to be fitted, as of the photodiodes, that can tell two poses apart.
+struct Witness {
+  Eigen::Vector3d position_map = Eigen::Vector3d::Zero();     ///< m, of the beacon
+  Eigen::Vector3d direction_base = Eigen::Vector3d::UnitZ();  ///< unit
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();       ///< of the direction, rad^2
+};
+
 struct PoseSolverParams {
   double camera_mount_sigma_rad = 0.002;  ///< of the mount's rotation about each axis
   Gravity gravity = Gravity::kPrior;      ///< from three beacons on; two can't correct it
@@ -75,10 +82,11 @@ class PoseSolver {
   Result<PoseSolutions, NoFix> solutions(const BeaconBearings& bearings, const Tilt& tilt,
                                          const RigidTransform& T_base_camera) const;
 
-  /// The one pose. Where solutions() has several, `prior` settles which, and does nothing else; without it such a case
-  /// is kAmbiguous.
+  /// The one pose. Where solutions() has several, `prior` settles which, else the witnesses do, and they do nothing
+  /// else; in doubt such a case is kAmbiguous.
   Result<Fix, NoFix> solve(const BeaconBearings& bearings, const Tilt& tilt, const RigidTransform& T_base_camera,
-                           const std::optional<PoseEstimate>& prior = {}) const;
+                           const std::optional<PoseEstimate>& prior = {},
+                           const std::vector<Witness>& witnesses = {}) const;
 
  private:
   struct Candidate;

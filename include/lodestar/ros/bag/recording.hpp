@@ -16,6 +16,7 @@
 #include "lodestar/base/measurement/announcement.hpp"
 #include "lodestar/base/measurement/image.hpp"
 #include "lodestar/base/measurement/ir_frame.hpp"
+#include "lodestar/base/measurement/ir_samples.hpp"
 #include "lodestar/base/measurement/load.hpp"
 #include "lodestar/base/measurement/motion.hpp"
 #include "lodestar/base/measurement/pallet.hpp"
@@ -36,6 +37,7 @@ struct RecordingTopics {
   std::string imu = "/imu/data";
   std::string odometry = "/odom";
   std::string ir_frames = "/ir/frames";
+  std::string ir_samples = "/ir/samples";
   std::string tf = "/tf";
   std::string tf_static = "/tf_static";
   std::string announcements = "/beacons/announcements";
@@ -81,7 +83,9 @@ struct TruthCameraPose {
 /// One message of a recording, converted. The camera's intrinsics come once, and again when they change.
 struct Record {
   Stamp received;  ///< when the recorder got it; the measurement's own stamp is in the content
-  std::variant<Image, CameraIntrinsics, ImuSample, OdometrySample, RawIrFrame, TruthPose, TruthCameraPose, Fix> content;
+  std::variant<Image, CameraIntrinsics, ImuSample, OdometrySample, RawIrFrame, IrSampleBlock, TruthPose,
+               TruthCameraPose, Fix>
+      content;
 };
 
 struct RecordingReaderParams {
@@ -152,6 +156,7 @@ class RecordingWriter {
   void write(Stamp received, const ImuSample& sample);
   void write(Stamp received, const OdometrySample& sample);
   void write(Stamp received, const RawIrFrame& frame);
+  void write(Stamp received, const IrSampleBlock& samples);
   void write(Stamp received, const TruthPose& pose);
   void write(Stamp received, const TruthCameraPose& pose);
   void write(Stamp received, const LoadSample& sample);

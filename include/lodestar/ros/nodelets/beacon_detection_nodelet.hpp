@@ -12,6 +12,7 @@
 #include "lodestar/BeaconDetectionConfig.h"
 #include "lodestar/line/frame_rate.hpp"
 #include "lodestar/line/localization_line.hpp"
+#include "lodestar/ros/nodelets/arrival_input.hpp"
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 #include "lodestar/ros/nodelets/camera_input.hpp"
 #include "lodestar/ros/nodelets/estimate_input.hpp"
@@ -39,6 +40,7 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageEdge> edge_;
   std::unique_ptr<DetectionStage> stage_;  ///< none until the frame rate is known
   std::unique_ptr<CameraInput> camera_;
+  std::unique_ptr<ArrivalInput> arrivals_;
   std::unique_ptr<BeaconInput> beacons_;
   std::unique_ptr<MotionInput> motion_;
   std::unique_ptr<EstimateInput> estimate_input_;

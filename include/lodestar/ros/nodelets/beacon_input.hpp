@@ -11,26 +11,30 @@
 
 namespace lodestar {
 
-/// The beacons in force, as a node downstream of the IR decoder knows them: the site file, `beacons/announcements`, and
-/// `beacons/conflicts`, where the decoder sends announcements that contradict the site file. A node that starts late
-/// has heard all of them after one superframe.
+/// The beacons in force, as a node downstream of the IR decoder knows them: the site file, `beacons/announcements`,
+/// `beacons/conflicts`, where the decoder sends announcements of beacons that are out of force, and
+/// `beacons/confirmed`, where it sends the word of those that somebody has looked after. A node that starts late has
+/// heard all of them after one superframe.
 class BeaconInput {
  public:
-  BeaconInput(ros::NodeHandle& nh, const Site& site, Health& health,
-              std::function<void(const std::vector<Beacon>&)> on_change);
+  BeaconInput(
+      ros::NodeHandle& nh, const Site& site, Health& health, std::function<void(const std::vector<Beacon>&)> on_change,
+      std::function<void(const Announcement&)> on_announcement = [](const auto&) {});
 
   const BeaconTable& table() const { return table_; }
   void reset_time() { table_.reset_time(); }
 
  private:
-  void take(const BeaconAnnouncementConstPtr& message);
+  enum class Word { kAnnouncement, kConflict, kConfirmed };
+  void take(const BeaconAnnouncement& message, Word word);
 
   Health& health_;
   StreamWatch& watch_;
   BeaconTable table_;
   std::uint64_t revision_ = 0;
   std::function<void(const std::vector<Beacon>&)> on_change_;
-  ros::Subscriber announcements_, conflicts_;
+  std::function<void(const Announcement&)> on_announcement_;
+  ros::Subscriber announcements_, conflicts_, confirmed_;
 };
 
 }  // namespace lodestar

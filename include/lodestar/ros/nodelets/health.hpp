@@ -21,7 +21,7 @@ struct StaleLimits {
 };
 
 /// Parameters `~stale_warn_s` and `~stale_error_s`.
-StaleLimits read_stale_limits(ParamReader& params);
+StaleLimits read_stale_limits(ParamReader& params, StaleLimits otherwise = {});
 
 enum class Need { kRequired, kOptional };
 

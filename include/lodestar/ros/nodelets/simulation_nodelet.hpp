@@ -25,6 +25,7 @@ class SimulationNodelet : public nodelet::Nodelet {
   void publish(const ImuSample& sample);
   void publish(const OdometrySample& sample);
   void publish(const RawIrFrame& frame);
+  void publish(const IrSampleBlock& samples);
   void publish(const Fix& fix);
   void publish(const LoadSample& sample);
   void publish(const sim::TruePallets& truth);
@@ -45,8 +46,8 @@ class SimulationNodelet : public nodelet::Nodelet {
   double behind_s_ = 0;       ///< real time that the machine could not keep up with
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> mounts_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
-  ros::Publisher image_, camera_info_, imu_, odometry_, ir_, fix_, load_, truth_, camera_truth_, pallet_truth_,
-      clock_publisher_;
+  ros::Publisher image_, camera_info_, imu_, odometry_, ir_, ir_samples_, fix_, load_, truth_, camera_truth_,
+      pallet_truth_, clock_publisher_;
   ros::WallTimer timer_;
 };
 

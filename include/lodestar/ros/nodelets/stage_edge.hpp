@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 
+#include "lodestar/line/time_jump.hpp"
 #include "lodestar/ros/nodelets/health.hpp"
 #include "lodestar/ros/nodelets/mount_lookup.hpp"
-#include "lodestar/line/time_jump.hpp"
 #include "lodestar/ros/params/line_setup.hpp"
 
 namespace lodestar {

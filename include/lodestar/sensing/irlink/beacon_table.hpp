@@ -16,7 +16,8 @@ namespace lodestar {
 ///
 /// - In the site file: an announcement from another slot is dropped (kSlot). One that differs by more than 3 sigma on
 ///   any axis of map (sigma: the file's sigma_m with the rounding to mm) or in its tones is a conflict: it is dropped
-///   and takes the beacon out of force, until an announcement agrees again. The file's position is the one in use.
+///   and takes the beacon out of force until somebody confirms it, for a beacon that was moved or swapped once may hang
+///   anywhere. The file's position is the one in use.
 /// - Not in the site file: the first announcement puts the beacon in force where it says, with sigma_m 0.01 when it
 ///   calls itself surveyed and 0.10 when not, and later ones within 3 sigma keep it up to date. One that jumps or
 ///   changes tones is a conflict and takes it out of force; the third in a row that agree with one another is believed.
@@ -40,6 +41,14 @@ class BeaconTable {
 
   /// Takes an announcement in, or says why not; counts either way. A conflict takes the beacon out of force.
   std::optional<IrDrop> accept(const Announcement& announcement);
+
+  /// Takes a known beacon out of force until it is confirmed.
+  void distrust(BeaconId id);
+
+  /// Somebody has looked after the beacon: what it last said of itself is right. Whether it has said anything.
+  bool confirm(BeaconId id);
+  /// The same, with what it said.
+  void confirm(const Announcement& announcement);
 
   /// Counts a frame that the decoder refused.
   void count(IrDrop reason) { drops_.add(reason); }

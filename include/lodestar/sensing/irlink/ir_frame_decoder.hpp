@@ -18,13 +18,14 @@ enum class IrDrop {
   kCrc,
   kVersion,
   kType,
-  kSlot,        ///< not one of the superframe's
+  kSlot,        ///< not one of the superframe's, not its beacon's, or begun when another slot is on
   kTones,       ///< not in the tone table, none, or a hole in the list
   kReserved,    ///< a status bit that version 1 leaves 0
   kUnsigned,    ///< on a site with a key
   kTag,         ///< does not match, or is not 0 on an unsigned frame
   kSuperframe,  ///< the counter does not move forward with time
   kStamp,       ///< older than the newest frame by more than one superframe
+  kDirection,   ///< came from elsewhere than its beacon hangs, seen from where the vehicle is
   kConflict,    ///< disagrees with the site file by more than 3 sigma, or with the beacon's earlier word
   kFull,        ///< one unknown beacon more than the table takes
   kCount

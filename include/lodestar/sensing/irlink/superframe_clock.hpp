@@ -11,15 +11,18 @@
 
 namespace lodestar {
 
-/// Whether the superframe counter of a frame moves forward with time. Model: docs/math/irlink.md.
+/// Whether a frame was sent in its slot and its superframe counter moves forward with time. Model: docs/math/irlink.md.
 ///
 /// - In phase: between the newest accepted frame and this one, counter and slot tell the same time as the stamps, to
-///   within one superframe and 200 ppm (the beacons' clock and the receiver's). Else kSuperframe.
+///   within a quarter of a slot and 200 ppm (the beacons' clock and the receiver's). Off by less than a superframe is
+///   kSlot, by more kSuperframe.
 /// - A beacon's own counter grows: the same frame twice is kSuperframe.
 /// - A frame older than the newest by more than one superframe is kStamp.
 /// - A clock that was set, or beacons that were started anew: five refused frames in a row that are in phase with one
 ///   another (none accepted in between) are the new phase; the fifth is accepted. On a site with a key the counter
 ///   must lie ahead of the newest, too: old frames cannot be replayed there, however many.
+/// - On a site with a key a frame that comes before its time is true at once: a stranger can only send late what beacons
+///   have sent before. It was the phase that was late, as a stranger's first word made it.
 ///
 /// The counter wraps around at 2^32.
 class SuperframeClock {
@@ -40,7 +43,9 @@ class SuperframeClock {
     std::uint32_t superframe;
     int slot;
   };
+  double late_s(const Instant& reference, const Instant& instant) const;
   bool in_phase(const Instant& reference, const Instant& instant) const;
+  bool advances(const Instant& instant, BeaconId beacon) const;
   bool learn(const Instant& instant);
   void take(const Instant& instant, BeaconId beacon);
 

@@ -39,7 +39,7 @@ class BeaconNaming : public testing::Test {
   }
 
   void name(const std::optional<PoseEstimate>& estimate, const BeaconNamerParams& params = {}) {
-    BeaconNamer(params).name(seen_, beacons_, heard_, *camera_, T_base_camera_, estimate);
+    BeaconNamer(params).name(seen_, beacons_, heard_, arrivals_, *camera_, T_base_camera_, estimate);
   }
   std::optional<BeaconId> named(int i) const { return seen_.sightings[i].beacon; }
 
@@ -48,6 +48,7 @@ class BeaconNaming : public testing::Test {
   PoseEstimate pose_;
   std::vector<Beacon> beacons_;
   std::vector<BeaconId> heard_;
+  std::vector<Arrival> arrivals_;
   Sightings seen_;
 };
 
@@ -67,6 +68,42 @@ TEST_F(ByCode, CodeMustMatchExactly) {
   seen_.sightings = {blob({1, 0, 8}, {0}), blob({1, 0, 8}, {0, 1, 2}), blob({1, 0, 8}, {3})};
   name({});
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(named(i));
+}
+
+/// The direction that a beacon at this place is heard from.
+Arrival arrival(BeaconId id, const Eigen::Vector3d& light_map, double sigma_rad) {
+  Arrival out;
+  out.beacon = id;
+  out.direction_base = light_map.normalized();
+  out.covariance =
+      sigma_rad * sigma_rad * (Eigen::Matrix3d::Identity() - out.direction_base * out.direction_base.transpose());
+  return out;
+}
+
+TEST_F(ByCode, TwoOfOneCodeInViewAreToldApartByWhereTheyAreHeardFrom) {
+  beacons_ = {beacon(kA, {3, 0, 8}, {0, 1}), beacon(kB, {-3, 0, 8}, {0, 1})};
+  heard_ = {kA, kB};
+  seen_.sightings = {blob({-3, 0, 8}, {0, 1}), blob({3, 0, 8}, {0, 1})};
+  name({});
+  EXPECT_FALSE(named(0) || named(1));
+  arrivals_ = {arrival(kA, {3, 0, 8}, 0.1), arrival(kB, {-3, 0, 8}, 0.1)};
+  name({});
+  EXPECT_EQ(named(0), kB);
+  EXPECT_EQ(named(1), kA);
+  arrivals_ = {arrival(kA, {3, 0, 8}, 0.6), arrival(kB, {-3, 0, 8}, 0.6)};
+  name({});
+  EXPECT_FALSE(named(0) || named(1)) << "too coarse to tell";
+}
+
+TEST_F(ByCode, OneThatIsHeardFromElsewhereIsAMirrorImage) {
+  beacons_ = {beacon(kA, {3, 0, 8}, {0, 1})};
+  heard_ = {kA};
+  seen_.sightings = {blob({-3, 1, 8}, {0, 1})};
+  name({});
+  EXPECT_EQ(named(0), kA);
+  arrivals_ = {arrival(kA, {3, 0, 8}, 0.1)};
+  name({});
+  EXPECT_FALSE(named(0));
 }
 
 TEST_F(ByCode, NoCodeNoName) {

@@ -163,6 +163,28 @@ TEST(PoseSolver, BehindTheCamera) {
   EXPECT_EQ(refusal(scene), NoFix::kBehindCamera);
 }
 
+TEST(PoseSolver, OfTwoRootsAWitnessChooses) {
+  const Scene scene = above_camera({3.6, -1, 4.8}, {4.75, -0.5, 7.7});
+  // A third beacon that only the photodiodes hear, and what is heard of the first two, which both roots agree with.
+  std::vector<Witness> witnesses;
+  for (const Eigen::Vector3d& beacon_map :
+       {scene.seen.bearings[0].position_map, scene.seen.bearings[1].position_map, Eigen::Vector3d(-4, 3, 6)}) {
+    Witness witness;
+    witness.position_map = beacon_map;
+    witness.direction_base = (scene.T_map_base.inverse() * beacon_map).normalized();
+    witness.covariance = 0.05 * 0.05 * Eigen::Matrix3d::Identity();
+    witnesses.push_back(witness);
+  }
+  const auto solve = [&] { return PoseSolver({}).solve(scene.seen, scene.tilt, scene.T_base_camera, {}, witnesses); };
+  const auto fix = solve();
+  ASSERT_TRUE(fix.ok()) << name(fix.error());
+  EXPECT_LT(position_error_m(*fix, scene), 1e-6);  // the witness chooses; it does not pull
+  witnesses.back().covariance *= 1000;
+  EXPECT_EQ(solve().error(), NoFix::kAmbiguous);
+  witnesses.pop_back();
+  EXPECT_EQ(solve().error(), NoFix::kAmbiguous);
+}
+
 TEST(PoseSolver, TwoRootsInFront) {
   const Scene scene = above_camera({3.6, -1, 4.8}, {4.75, -0.5, 7.7});
   EXPECT_EQ(refusal(scene), NoFix::kAmbiguous);

@@ -57,7 +57,7 @@ TEST(BeaconTable, three_sigma_of_the_file_on_one_axis_are_the_limit) {
     }
 }
 
-TEST(BeaconTable, a_conflict_takes_the_beacon_out_until_an_announcement_agrees) {
+TEST(BeaconTable, a_conflict_takes_the_beacon_out_until_it_is_confirmed) {
   BeaconTable table(site_with_list());
   EXPECT_EQ(table.accept(at(1, 5, kPosition + Eigen::Vector3d(0, 0, 0.5))), IrDrop::kConflict);
   EXPECT_EQ(table.accept(at(1, 6, kPosition + Eigen::Vector3d(0, 0, 0.5))), IrDrop::kConflict);
@@ -68,10 +68,31 @@ TEST(BeaconTable, a_conflict_takes_the_beacon_out_until_an_announcement_agrees) 
   EXPECT_EQ(table.revision(), 1u);
   EXPECT_EQ(table.drops()[IrDrop::kConflict], 3u);
 
-  EXPECT_EQ(table.accept(at(1, 8, kPosition)), std::nullopt);
-  EXPECT_FALSE(entry(table, 1).conflict);
+  EXPECT_EQ(table.accept(at(1, 8, kPosition)), IrDrop::kConflict) << "it agrees again: who knows why";
+  EXPECT_EQ(table.beacons().size(), 1u);
+
+  EXPECT_TRUE(table.confirm(BeaconId{1}));
+  EXPECT_EQ(table.accept(at(1, 9, kPosition)), std::nullopt);
   EXPECT_EQ(table.beacons().size(), 2u);
+  EXPECT_EQ(table.beacons()[0].position_map, kPosition);
   EXPECT_EQ(table.revision(), 2u);
+}
+
+TEST(BeaconTable, a_beacon_that_was_hung_up_anew_is_used_where_it_says_once_confirmed) {
+  const Eigen::Vector3d moved = kPosition + Eigen::Vector3d(0, 2, 0);
+  BeaconTable table(site_with_list());
+  EXPECT_FALSE(table.confirm(BeaconId{1})) << "never heard";
+  EXPECT_FALSE(table.confirm(BeaconId{99}));
+  EXPECT_EQ(table.accept(at(1, 5, moved)), IrDrop::kConflict);
+  EXPECT_TRUE(table.confirm(BeaconId{1}));
+  ASSERT_EQ(table.beacons().size(), 2u);
+  EXPECT_EQ(table.beacons()[0].position_map, moved);
+  EXPECT_EQ(table.accept(at(1, 6, moved)), std::nullopt);
+  EXPECT_EQ(table.accept(at(1, 7, kPosition)), IrDrop::kConflict);
+
+  BeaconTable another(site_with_list());
+  another.confirm(at(1, 6, moved));
+  EXPECT_EQ(another.beacons()[0].position_map, moved);
 }
 
 TEST(BeaconTable, other_tones_than_the_files_are_a_conflict) {

@@ -42,20 +42,45 @@ TEST(SuperframeClock, a_replayed_frame_is_dropped_whoever_sent_it) {
   EXPECT_EQ(clock.accept(heard(2, 50)), std::nullopt);
 }
 
-TEST(SuperframeClock, one_superframe_is_the_tolerance_of_the_stamps) {
-  for (const double late_s : {-0.75, 0.75}) {
-    SuperframeClock clock{Link()};
-    EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
-    Announcement frame = heard(2, 52);
-    frame.stamp += from_seconds(late_s);
-    EXPECT_EQ(clock.accept(frame), std::nullopt) << late_s;
+std::optional<IrDrop> verdict_on_late(double late_s, const Link& link) {
+  SuperframeClock clock{link};
+  EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
+  Announcement frame = heard(2, 52);
+  frame.stamp += from_seconds(late_s);
+  return clock.accept(frame);
+}
+
+TEST(SuperframeClock, a_frame_belongs_into_its_slot) {
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(verdict_on_late(sign * 0.006, {}), std::nullopt);
+    EXPECT_EQ(verdict_on_late(sign * 0.007, {}), IrDrop::kSlot);
+    EXPECT_EQ(verdict_on_late(sign * 0.025, {}), IrDrop::kSlot);
+    EXPECT_EQ(verdict_on_late(sign * 0.75, {}), IrDrop::kSlot);
+    EXPECT_EQ(verdict_on_late(sign * 0.85, {}), IrDrop::kSuperframe);
   }
-  for (const double late_s : {-0.85, 0.85}) {
-    SuperframeClock clock{Link()};
-    EXPECT_EQ(clock.accept(heard(1, 50)), std::nullopt);
-    Announcement frame = heard(2, 52);
-    frame.stamp += from_seconds(late_s);
-    EXPECT_EQ(clock.accept(frame), IrDrop::kSuperframe) << late_s;
+}
+
+TEST(SuperframeClock, with_a_key_only_late_frames_are_outside_their_slot) {
+  EXPECT_EQ(verdict_on_late(0.025, keyed()), IrDrop::kSlot);
+  EXPECT_EQ(verdict_on_late(-0.025, keyed()), std::nullopt);
+}
+
+TEST(SuperframeClock, with_a_key_a_stranger_who_is_heard_first_is_found_out_by_the_first_true_frame) {
+  SuperframeClock clock{keyed()};
+  EXPECT_EQ(clock.accept(heard(7, 400, 1480)), std::nullopt);  // recorded when 400 was on, played when 1000 is
+  EXPECT_EQ(clock.accept(heard(1, 1000, 1000)), std::nullopt);
+  for (std::uint32_t superframe = 401; superframe < 500; ++superframe)
+    EXPECT_NE(clock.accept(heard(7, superframe, 1480)), std::nullopt);
+  EXPECT_EQ(clock.accept(heard(1, 1100, 1000)), std::nullopt);
+}
+
+TEST(SuperframeClock, relayed_frames_do_not_drag_the_phase_along) {
+  SuperframeClock clock{keyed()};
+  for (std::uint32_t superframe = 100; superframe < 140; ++superframe) {
+    EXPECT_EQ(clock.accept(heard(1, superframe, 1000)), std::nullopt);
+    const double creeping_s = 1000 + 0.005 * (superframe - 100);
+    const auto relayed = clock.accept(heard(2, superframe, creeping_s));
+    EXPECT_EQ(relayed.has_value(), superframe > 101) << superframe;
   }
 }
 

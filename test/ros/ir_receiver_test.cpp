@@ -1,0 +1,135 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <random>
+
+#include "lodestar/IrFrame.h"
+#include "lodestar/sensing/irlink/board_link.hpp"
+#include "ros/support/diagnostics.hpp"
+#include "ros/support/inbox.hpp"
+#include "ros/support/waiting.hpp"
+
+namespace {
+
+using namespace lodestar;
+using namespace lodestar::test;
+using Bytes = std::vector<std::uint8_t>;
+
+const char* const kNode = "ir_receiver";
+const char* const kDevice = "/tmp/lodestar_test_board";
+
+/// A receiver board at the other end of a pseudo-terminal.
+class SimulatedBoard {
+ public:
+  SimulatedBoard() {
+    unplug();
+    master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    grantpt(master_);
+    unlockpt(master_);
+    EXPECT_EQ(symlink(ptsname(master_), kDevice), 0);
+  }
+  ~SimulatedBoard() { unplug(); }
+  void unplug() {
+    unlink(kDevice);
+    if (master_ >= 0) close(master_);
+    master_ = -1;
+  }
+
+  /// The board's clock, which began when the board did.
+  std::uint64_t now_ns() const { return static_cast<std::uint64_t>((ros::Time::now() - started_).toNSec()) + 5; }
+  void write(const Bytes& bytes) {
+    for (std::size_t sent = 0; sent < bytes.size();) {
+      const ssize_t count = ::write(master_, bytes.data() + sent, bytes.size() - sent);
+      if (count > 0) sent += static_cast<std::size_t>(count);
+      if (count <= 0) ros::WallDuration(0.001).sleep();
+    }
+  }
+  void send_time() { write(encode_board_packet(BoardTime{now_ns()})); }
+  Bytes frame_packet(std::uint8_t mark) const {
+    BoardFrame frame;
+    frame.time_ns = now_ns();
+    frame.levels = {0, 65535};
+    frame.octets.fill(mark);
+    return encode_board_packet(frame);
+  }
+  void send_frame(std::uint8_t mark) { write(frame_packet(mark)); }
+
+ private:
+  int master_ = -1;
+  ros::Time started_ = ros::Time::now();
+};
+
+class IrReceiver : public testing::Test {
+ protected:
+  static bool within(double limit_s, const std::function<bool()>& condition) { return wait_for(condition, limit_s); }
+  bool frame_of(std::uint8_t mark) const {
+    return !frames_.empty() && frames_.last().octets[0] == mark && frames_.last().octets[45] == mark;
+  }
+
+  ros::NodeHandle nh_;
+  Inbox<IrFrame> frames_{nh_, "/ir/frames"};
+  Diagnostics diagnostics_{nh_};
+};
+
+TEST_F(IrReceiver, HearsABoardThatLiesAndIsUnplugged) {
+  auto board = std::make_unique<SimulatedBoard>();
+  ASSERT_TRUE(within(10, [&] { return frames_.connected() && diagnostics_.heard(kNode); }));
+  ASSERT_TRUE(within(3, [&] {
+    board->send_time();
+    return diagnostics_.level(kNode) == 0 && diagnostics_.count(kNode, "packets") > 2;
+  })) << diagnostics_.message(kNode);
+
+  // A frame, in our time and in units of full scale.
+  const ros::Time sent = ros::Time::now();
+  board->send_frame(7);
+  ASSERT_TRUE(within(1, [&] { return frame_of(7); }));
+  EXPECT_EQ(frames_.last().header.frame_id, "ir_array");
+  EXPECT_NEAR((frames_.last().header.stamp - sent).toSec(), 0, 0.01);
+  EXPECT_EQ(frames_.last().levels, (std::vector<float>{0, 1}));
+
+  // Noise, half a packet, a wrong CRC, and what another baud rate makes of it: only true frames come out.
+  std::mt19937 random(1);
+  Bytes noise(3000), half = board->frame_packet(8), wrong = board->frame_packet(9);
+  for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
+  half.resize(20);
+  wrong[30] ^= 1;
+  const std::size_t before = frames_.size();
+  for (const Bytes& bad : {noise, half, Bytes{0}, wrong, Bytes(2000, 0x78)}) board->write(bad);
+  board->write({0});
+  board->send_frame(10);
+  ASSERT_TRUE(within(1, [&] { return frame_of(10); }));
+  EXPECT_EQ(frames_.size(), before + 1);
+  EXPECT_TRUE(within(2.5, [&] { return diagnostics_.count(kNode, "dropped: packet crc") >= 1; }));
+  EXPECT_GE(diagnostics_.count(kNode, "dropped: packet too long"), 1);
+
+  // Ten times as many frames as a site can send: cut to the limit, and the board is still heard.
+  board->send_time();
+  const std::size_t before_flood = frames_.size();
+  for (int i = 0; i < 1000; ++i) board->send_frame(11);
+  EXPECT_TRUE(within(3, [&] { return diagnostics_.count(kNode, "dropped: flood") > 500; }));
+  EXPECT_LT(frames_.size(), before_flood + 500);
+  EXPECT_TRUE(within(3, [&] {
+    board->send_time();
+    board->send_frame(12);
+    return frame_of(12);
+  }));
+
+  // Unplugged: said within a second or so of the next report. Plugged in again, with a clock that began anew.
+  board.reset();
+  EXPECT_TRUE(within(1.2, [&] { return diagnostics_.level(kNode) == 2; })) << diagnostics_.message(kNode);
+  board = std::make_unique<SimulatedBoard>();
+  EXPECT_TRUE(within(3, [&] {
+    board->send_time();
+    board->send_frame(13);
+    return frame_of(13);
+  }));
+  EXPECT_NEAR((frames_.last().header.stamp - ros::Time::now()).toSec(), 0, 0.1);
+
+  // Silent, but plugged in.
+  EXPECT_TRUE(within(4, [&] { return diagnostics_.message(kNode) == "packets is stale"; }))
+      << diagnostics_.message(kNode);
+}
+
+}  // namespace

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "lodestar/sim/line_run.hpp"
+
+namespace lodestar::test {
+
+/// What somebody with a lamp and a recorder may do to the data channel.
+enum class Trick {
+  kNone,
+  kReplay,  ///< sends what he recorded some seconds before, as if it were heard now
+  kRelay,   ///< sends on at once what a true beacon sends, from another place
+  kDelay,   ///< the same a frame's length later
+  kForge,   ///< sends frames of his own, unsigned or with a tag that he made up, with other coordinates
+  kJam,     ///< true frames are heard as noise
+  kEverything
+};
+
+/// Frames that the receiver hears beside, or instead of, those of a true beacon.
+class Stranger {
+ public:
+  Stranger(Trick trick, const Site& site) : trick_(trick), site_(site) {}
+
+  std::vector<RawIrFrame> heard(const RawIrFrame& sent) {
+    std::vector<RawIrFrame> out{sent};
+    recorded_.push_back(sent);
+    const bool everything = trick_ == Trick::kEverything;
+    if (trick_ == Trick::kReplay || everything) replay(sent, out);
+    if (trick_ == Trick::kRelay || everything) out.insert(out.begin(), from_elsewhere(sent, 0));
+    if (trick_ == Trick::kDelay || everything) out.push_back(from_elsewhere(sent, 0.0208));
+    if (trick_ == Trick::kForge || everything) forge(sent, out);
+    if (trick_ == Trick::kJam || (everything && recorded_.size() % 3 == 0))
+      for (RawIrFrame& frame : out)
+        for (std::size_t i = 0; i < frame.octets.size(); i += 2) frame.octets[i] ^= 0x5A;
+    return out;
+  }
+
+ private:
+  /// The stranger's lamp shines from low at one side.
+  static RawIrFrame from_elsewhere(RawIrFrame frame, double late_s) {
+    frame.stamp += from_seconds(late_s);
+    const Eigen::Vector3d sender = 0.5 * Eigen::Vector3d(std::sin(radians(55)), 0, std::cos(radians(55)));
+    frame.levels.clear();
+    for (const auto& diode : DiodeArray::ring().diodes) {
+      const double level = diode.direction_ir.dot(sender);
+      frame.levels.push_back(static_cast<float>(level > 0.5 * std::cos(radians(75)) ? level : 0));
+    }
+    return frame;
+  }
+  void replay(const RawIrFrame& now, std::vector<RawIrFrame>& out) const {
+    RawIrFrame old = from_elsewhere(recorded_[recorded_.size() / 2], 0);
+    old.stamp = now.stamp;
+    out.insert(out.begin(), old);
+  }
+  void forge(const RawIrFrame& now, std::vector<RawIrFrame>& out) const {
+    const Beacon& beacon = site_.beacons.front();
+    Announcement lie;
+    lie.beacon = beacon.id;
+    lie.slot = static_cast<std::uint8_t>(beacon.slot);
+    lie.superframe = 2000;
+    lie.position_map = beacon.position_map + Eigen::Vector3d(2, 1, 0);
+    lie.tones = beacon.tones;
+    Link unsigned_link = site_.link, other_key = site_.link;
+    unsigned_link.key.reset();
+    other_key.key = std::array<std::uint8_t, 16>{1, 2, 3};
+    for (const Link& link : {unsigned_link, other_key}) {
+      RawIrFrame frame = now;
+      frame.octets = encode_ir_frame(lie, link);
+      out.insert(out.begin(), frame);
+    }
+  }
+
+  Trick trick_;
+  Site site_;
+  std::deque<RawIrFrame> recorded_;
+};
+
+}  // namespace lodestar::test
