@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "../base/site/yaml_document.hpp"
+#include "lodestar/base/yaml/yaml_document.hpp"
 #include "scenario_sections.hpp"
 
 namespace lodestar::sim {

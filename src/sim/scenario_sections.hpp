@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../base/site/yaml_map.hpp"
+#include "lodestar/base/yaml/yaml_map.hpp"
 #include "lodestar/sim/scenario.hpp"
 
 namespace lodestar::sim {

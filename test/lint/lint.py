@@ -101,12 +101,13 @@ def check_includes(root, rooms, faults):
 
 def check_links(root, rooms, faults):
     """Each module's CMake library lies in its folder and links nothing that it may not include."""
-    links, lines = {}, {}
+    links, shared, lines = {}, {}, {}
     text = text_of(root, "CMakeLists.txt")
     for call in re.finditer(r"lodestar_module\((\w+)\s+DIR\s+(\S+)\s+LINKS([^)]*)\)", text):
         module, folder = call.group(1), call.group(2)
         lines[module] = text.count("\n", 0, call.start()) + 1
         links[module] = set(re.findall(r"lodestar_(\w+)", call.group(3)))
+        shared[module] = set(re.findall(r"lodestar_(\w+)", call.group(3).partition("PRIVATE")[0]))
         if module not in rooms or rooms[module][0] != folder:
             faults.add("CMakeLists.txt", lines[module],
                        "module %s in %s is not in ARCHITECTURE.md's table" % (module, folder))
@@ -115,18 +116,30 @@ def check_links(root, rooms, faults):
 
     def reach(module):
         seen = set()
-        todo = [module]
+        todo = list(links[module])
         while todo:
-            for other in links.get(todo.pop(), ()):
-                if other not in seen:
-                    seen.add(other)
-                    todo.append(other)
+            other = todo.pop()
+            if other not in seen:
+                seen.add(other)
+                todo += shared.get(other, ())
         return seen
 
     for module in sorted(set(links) & set(rooms)):
         for other in sorted(reach(module)):
             if other not in rooms or not may_see(rooms, module, other):
                 faults.add("CMakeLists.txt", lines[module], "%s may not link %s" % (module, other))
+
+
+def check_pages(root, faults):
+    """What a page links to within the project is there."""
+    pages = [name for name in os.listdir(root) if name.endswith(".md")]
+    for path in sorted(pages) + [path for path in files(root, "docs") if path.endswith(".md")]:
+        for number, line in enumerate(text_of(root, path).splitlines(), 1):
+            for target in re.findall(r"\]\(([^)\s]+)\)", line):
+                target = target.partition("#")[0]
+                if target and "://" not in target and \
+                        not os.path.exists(os.path.join(root, os.path.dirname(path), target)):
+                    faults.add(path, number, "links to %s, which is not there" % target)
 
 
 def check_package(root, faults):
@@ -179,6 +192,7 @@ def lint(root):
     check_includes(root, rooms, faults)
     check_links(root, rooms, faults)
     check_package(root, faults)
+    check_pages(root, faults)
     check_readable(root, faults)
     return faults
 

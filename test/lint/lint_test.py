@@ -67,6 +67,20 @@ class LintTest(unittest.TestCase):
         self.assert_fault({"CMakeLists.txt": cmake.replace("sim LINKS lodestar_pose", "sim LINKS x")},
                           "pose may not link sim")
 
+    def test_private_links_end_at_their_module(self):
+        cmake = TREE["CMakeLists.txt"] + "lodestar_module(yaml DIR base/yaml LINKS x)\n"
+        table = TREE["ARCHITECTURE.md"].replace("| sim |", "| yaml | base/yaml | |\n| sim |")
+        rooms = table.replace("| common | base/common | |", "| common | base/common | yaml |")
+        links = cmake.replace("Eigen3::Eigen", "Eigen3::Eigen PRIVATE lodestar_yaml")
+        self.assertEqual(faults_of({"ARCHITECTURE.md": rooms, "CMakeLists.txt": links}), [])
+        self.assert_fault({"ARCHITECTURE.md": rooms, "CMakeLists.txt": links.replace(" PRIVATE lodestar_y", " lodestar_y")},
+                          "pose may not link yaml")
+
+    def test_page_links_to_nothing(self):
+        self.assertEqual(faults_of({"docs/a.md": "[b](../config/a.yaml#x) [c](https://x.y/z) [d](#e)\n"}), [])
+        self.assert_fault({"docs/a.md": "\n[b](b.md)\n"}, "docs/a.md:2: links to b.md")
+        self.assert_fault({"README.md": "![b](docs/b.png)\n"}, "links to docs/b.png")
+
     def test_module_missing_in_cmake_or_table(self):
         self.assert_fault({"CMakeLists.txt": TREE["CMakeLists.txt"].split("lodestar_module(sim")[0]},
                           "module sim of the table is not in CMakeLists.txt")

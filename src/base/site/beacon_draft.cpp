@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "fault_log.hpp"
 #include "lodestar/base/site/site.hpp"
+#include "lodestar/base/yaml/fault_log.hpp"
 
 namespace lodestar {
 

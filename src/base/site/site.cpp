@@ -8,8 +8,8 @@
 #include "beacon_draft.hpp"
 #include "key_file.hpp"
 #include "lodestar/base/measurement/ir_frame.hpp"
-#include "yaml_document.hpp"
-#include "yaml_map.hpp"
+#include "lodestar/base/yaml/yaml_document.hpp"
+#include "lodestar/base/yaml/yaml_map.hpp"
 
 namespace lodestar {
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "lodestar/base/site/site.hpp"
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "fault_log.hpp"
 #include "lodestar/base/site/site.hpp"
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/fault_log.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 

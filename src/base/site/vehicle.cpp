@@ -1,8 +1,8 @@
 #include "lodestar/base/site/vehicle.hpp"
 
 #include "lodestar/base/common/angle.hpp"
-#include "yaml_document.hpp"
-#include "yaml_map.hpp"
+#include "lodestar/base/yaml/yaml_document.hpp"
+#include "lodestar/base/yaml/yaml_map.hpp"
 
 namespace lodestar {
 

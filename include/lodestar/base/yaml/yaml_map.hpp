@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "fault_log.hpp"
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/fault_log.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 
@@ -35,7 +35,7 @@ class YamlMap {
 
   std::optional<double> number(const std::string& key, const Limits& limits) const;
   std::optional<std::int64_t> integer(const std::string& key, const Limits& limits) const;
-  std::optional<bool> boolean(const std::string& key) const;       ///< true or false
+  std::optional<bool> boolean(const std::string& key) const;      ///< true or false
   std::optional<std::string> text(const std::string& key) const;  ///< may be empty text
 
   /// A list of numbers with the line of each.

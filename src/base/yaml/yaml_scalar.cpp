@@ -1,4 +1,4 @@
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 #include <algorithm>
 #include <cctype>

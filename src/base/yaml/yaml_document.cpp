@@ -1,4 +1,4 @@
-#include "yaml_document.hpp"
+#include "lodestar/base/yaml/yaml_document.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "yaml_scalar.hpp"
+#include "lodestar/base/yaml/yaml_scalar.hpp"
 
 namespace lodestar {
 

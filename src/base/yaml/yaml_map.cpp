@@ -1,4 +1,4 @@
-#include "yaml_map.hpp"
+#include "lodestar/base/yaml/yaml_map.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "fault_log.hpp"
 #include "lodestar/base/common/result.hpp"
+#include "lodestar/base/yaml/fault_log.hpp"
 
 namespace lodestar {
 
