@@ -20,8 +20,9 @@ void FusionStage::add_odometry(const OdometrySample& sample) { filter_.add_odome
 void FusionStage::add_sightings(const Sightings& sightings) {
   sightings_stamp_ = sightings.stamp;
   if (!use_sightings_ || !camera_.model) return;
-  const BeaconBearings named = bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_);
+  const BeaconBearings named = bearings(sightings, *camera_.model, watch_.trusted(beacons_), calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
+  if (watch_.due(sightings.stamp)) watch_.add(sightings.stamp, filter_.beacon_checks());
 }
 
 void FusionStage::add_fix(const Fix& fix) {
@@ -33,6 +34,7 @@ void FusionStage::add_fix(const Fix& fix) {
 
 void FusionStage::reset() {
   filter_.reset();
+  watch_.reset_time();
   sightings_stamp_.reset();
 }
 

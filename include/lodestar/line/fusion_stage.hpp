@@ -8,6 +8,7 @@
 #include "lodestar/base/measurement/sighting.hpp"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/estimation/fusion/pose_filter.hpp"
+#include "lodestar/line/beacon_watch.hpp"
 #include "lodestar/line/camera_mount.hpp"
 
 namespace lodestar {
@@ -29,6 +30,10 @@ class FusionStage {
   void add_sightings(const Sightings& sightings);
   void add_fix(const Fix& fix);
 
+  /// Beacons that disagree with the rest for long: left out until somebody confirms them.
+  const std::set<BeaconId>& distrusted() const { return watch_.distrusted(); }
+  void confirm(BeaconId id) { watch_.confirm(id); }
+
   const PoseFilter& filter() const { return filter_; }
   void reset();
 
@@ -38,6 +43,7 @@ class FusionStage {
   bool use_sightings_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  BeaconWatch watch_;
   std::optional<Stamp> sightings_stamp_;
 };
 
