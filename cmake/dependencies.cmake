@@ -4,6 +4,7 @@ find_package(Boost REQUIRED COMPONENTS system filesystem iostreams program_optio
 find_package(yaml-cpp REQUIRED)
 find_package(mrpt-poses REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d)
 find_package(Threads REQUIRED)
 
 find_library(FEC_LIBRARY fec)

@@ -2,7 +2,7 @@
 set(LODESTAR_ROS_COMPONENTS
   roscpp nodelet pluginlib
   std_msgs geometry_msgs sensor_msgs nav_msgs visualization_msgs diagnostic_msgs tf2_msgs
-  tf2 tf2_ros image_transport diagnostic_updater dynamic_reconfigure
+  tf2 tf2_ros image_transport camera_info_manager diagnostic_updater dynamic_reconfigure
   rosbag_storage
   message_generation)
 find_package(catkin REQUIRED COMPONENTS ${LODESTAR_ROS_COMPONENTS})

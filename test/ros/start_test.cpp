@@ -58,7 +58,7 @@ TEST_F(Start, ListsAllFaultsAtOnce) {
 
 TEST_F(Start, EachNodeRefusesAnUnknownParameter) {
   for (const char* node : {"beacon_detection_node", "ir_decoding_node", "pose_solving_node", "pose_fusion_node",
-                           "visualization_node", "simulation_node"}) {
+                           "visualization_node", "simulation_node", "camera_capture_node"}) {
     ros::param::del("/started");
     ros::param::set("/started/site", kSource + "/test/ros/site.yaml");
     ros::param::set("/started/no_such_thing", 1);
@@ -111,6 +111,8 @@ TEST(Launch, EveryFileParsesAndNamesItsNodes) {
     std::string file, arguments, nodes;
   } cases[] = {{"bringup.launch", site, all + " /lodestar_manager"},
                {"bringup.launch", site + " start_manager:=false visualization:=true", all + " /visualization"},
+               {"bringup.launch", site + " camera:=gige:", all + " /camera_capture /lodestar_manager"},
+               {"bringup.launch", site + " ir:=serial:/dev/ttyUSB0", all + " /ir_receiver"},
                {"replay.launch", site + " bag:=/tmp/x.bag rviz:=true", all + " /player /rviz /visualization"},
                {"demo.launch", " rviz:=true", all + " /simulation /rviz /visualization"}};
   for (const auto& c : cases) {

@@ -72,7 +72,43 @@ refused 1 "duration" "$bin/accuracy" --scenario "$source/test/ros/scenario.yaml"
 /usr/bin/python3 -c 'import json; r = json.load(open("fixes.json"))["all"]; assert r["samples"] > 900 and r["position"]["rmse_m"] < 0.05, r'
 refused 1 "beacons/fix" "$bin/fuse" --bag drive.bag --out e.csv
 refused 1 "no camera" "$bin/accuracy" --scenario "$source/config/scenarios/fixes.yaml" --seeds 1
-for tool in simulate replay fuse evaluate paper_experiment accuracy plan_codes; do
+
+tools="simulate replay fuse evaluate paper_experiment accuracy plan_codes"
+if [ -x "$bin/calibrate" ]; then
+  tools="$tools calibrate calibrate_mount"
+  chessboard="--board chessboard --size 10x8 --square-m 0.03"
+  mkdir shots
+  "$bin/make_board_views" shots 12
+  "$bin/calibrate" --images shots $chessboard --out camera.yaml --plot coverage.png | tee lens.txt
+  [ -s coverage.png ] || fail "no coverage plot"
+  grep -q "no view in the upper left corner" lens.txt || fail "calibrate does not warn of a corner without a view"
+  /usr/bin/python3 - <<'PYTHON'
+import yaml
+info = yaml.safe_load(open("camera.yaml"))
+fx, fy = info["camera_matrix"]["data"][0], info["camera_matrix"]["data"][4]
+assert abs(fx / 229.4 - 1) < 0.002 and abs(fy / 229.4 - 1) < 0.002, info
+assert info["distortion_model"] == "equidistant" and info["image_width"] == 640, info
+PYTHON
+  refused 1 "at least 4" "$bin/calibrate" --images drive.bag $chessboard
+  refused 1 "COLUMNSxROWS" "$bin/calibrate" --images shots --board chessboard --size 10by8 --square-m 0.03
+  refused 1 "3 to 100" "$bin/calibrate" --images shots --board chessboard --size 2x8 --square-m 0.03
+  refused 1 "chessboard, charuco or aprilgrid" "$bin/calibrate" --images shots --board poster --size 10x8 --square-m 0.03
+
+  # The truth is the scenario's mount; the guess is off by degrees.
+  "$bin/simulate" --scenario "$source/test/tools/mount.yaml" --out mount.bag
+  echo "camera: {mount: {xyz_m: [0.2, 0.0, 1.5], rpy_deg: [0, 0, 0]}, calibration_sigma_px: 0.1}" >guess.yaml
+  "$bin/calibrate_mount" --site "$source/test/ros/site.yaml" --bag mount.bag --vehicle guess.yaml | tee mount.txt
+  /usr/bin/python3 - <<'PYTHON'
+import re
+found = {m[0]: (float(m[1]), float(m[2])) for m in re.findall(r"(roll|pitch|yaw) +(\S+) deg, one sigma (\S+)", open("mount.txt").read())}
+for angle, truth, widest in (("roll", 1.2, 0.15), ("pitch", -0.8, 0.15), ("yaw", 2.0, 0.5)):
+    value, sigma = found[angle]
+    assert abs(value - truth) < 3 * sigma and sigma < widest, (angle, value, sigma)
+PYTHON
+  refused 1 "stood 0 times" "$bin/calibrate_mount" --site "$source/test/ros/site.yaml" --bag drive.bag
+  refused 1 "floor-sigma-deg" "$bin/calibrate_mount" --site "$source/test/ros/site.yaml" --bag mount.bag --floor-sigma-deg 0
+fi
+for tool in $tools; do
   "$bin/$tool" --help | grep -q "Examples:" || fail "$tool --help has no examples"
 done
 echo "all tools do as they say"

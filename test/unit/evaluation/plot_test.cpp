@@ -127,6 +127,12 @@ TEST_F(Plot, DrawsASite) {
   EXPECT_THROW(plot_site(png.string(), plot), PlotError);
 }
 
+TEST_F(Plot, Lens) {
+  const fs::path png = folder_ / "lens.png";
+  plot_lens(png.string(), {"camera.yaml", 640, 480, {{{10, 20}, {0.1, 0.2}}, {{600, 400}, {-0.1, 0}}}});
+  expect_png(png);
+}
+
 TEST_F(Plot, SaysWhatIsMissing) {
   const Drive drive;
   const TrajectoryError error = trajectory_error(drive.truth, drive.estimate);

@@ -55,6 +55,8 @@ class Health {
   void drop(EdgeDrop reason) { edge_drops_.add(reason); }
   void drop(MessageDrop reason) { message_drops_.add(reason); }
   void count_reset() { ++resets_; }
+  /// Without waiting for the second to pass.
+  void report_now() { updater_.force_update(); }
 
  private:
   void run(Status& status);

@@ -18,7 +18,7 @@ struct Link {
 
 /// Largest error of the mapped time of each sample after five seconds, over a minute.
 double largest_error_s(const Link& link, std::uint64_t seed) {
-  test::Noise noise(seed);
+  test::Noise noise(seed * 1'000'003);
   ClockFitParams params;
   params.tick_hz = 1e6;
   params.counter_bits = 32;
@@ -51,7 +51,7 @@ TEST(ClockFitProperty, AQuietCamera) { EXPECT_LT(largest_error_s({60, 100e-6, 0.
 
 TEST(ClockFitProperty, ACameraOnABusyComputer) { EXPECT_LT(largest_error_s({60, -100e-6, 0.5e-3, 0.3}), 40e-6); }
 
-TEST(ClockFitProperty, ABoardThatIsHeardOnceASecond) { EXPECT_LT(largest_error_s({1, 100e-6, 0.5e-3, 0.1}), 2e-3); }
+TEST(ClockFitProperty, ABoardThatIsHeardOnceASecond) { EXPECT_LT(largest_error_s({1, 100e-6, 0.5e-3, 0.1}), 1.5e-3); }
 
 }  // namespace
 }  // namespace lodestar

@@ -1,0 +1,10 @@
+# The calibrations, and with them the tools calibrate and calibrate_mount: not every truck's computer needs them.
+find_package(Ceres QUIET)
+find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs calib3d aruco)
+if(Ceres_FOUND AND OpenCV_FOUND)
+  set(calibration_can_be_built ON)
+endif()
+option(LODESTAR_CALIBRATION "Tools calibrate and calibrate_mount, with Ceres and OpenCV's aruco" ${calibration_can_be_built})
+if(NOT LODESTAR_CALIBRATION)
+  message(STATUS "Built without calibrate and calibrate_mount, which need Ceres and OpenCV's aruco")
+endif()

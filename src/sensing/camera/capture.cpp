@@ -1,0 +1,107 @@
+#include "lodestar/sensing/camera/capture.hpp"
+
+#include <algorithm>
+
+namespace lodestar {
+
+Capture::Capture(Open open, const CameraSettings& settings, FrameAllocator allocate, double transfer_s)
+    : open_(std::move(open)), settings_(settings), allocate_(std::move(allocate)), transfer_s_(transfer_s) {}
+
+void Capture::open() {
+  source_.reset();  // first: most devices serve one at a time
+  source_ = open_();
+  try {
+    info_ = source_->start(settings_, allocate_);
+  } catch (...) {
+    source_.reset();
+    throw;
+  }
+  forget_stream();
+  stamper_.emplace(info_, transfer_s_);
+  counter_ = FrameCounter(info_.clock.frame_id_bits);
+  reconnects_ += was_open_;
+  was_open_ = true;
+  state_ = CaptureState::kRunning;
+}
+
+void Capture::forget_stream() {
+  frames_before_ += counter_.frames();
+  dropped_before_ += counter_.dropped();
+  if (stamper_) clock_restarts_before_ += stamper_->fit().restarts();
+  silent_for_ = {};
+}
+
+std::optional<CapturedFrame> Capture::next() {
+  if (state_ == CaptureState::kOver) return std::nullopt;
+  if (state_ != CaptureState::kRunning && !reopen()) return std::nullopt;
+  try {
+    return take(source_->next(kPatience));
+  } catch (const CameraError& error) {
+    lose(CaptureState::kClosed, error.what());
+    return std::nullopt;
+  }
+}
+
+bool Capture::reopen() {
+  try {
+    open();
+    return true;
+  } catch (const std::runtime_error& error) {
+    lose(CaptureState::kClosed, error.what());
+    return false;
+  }
+}
+
+std::optional<CapturedFrame> Capture::take(Result<DeviceFrame, NoFrame> result) {
+  if (result) {
+    DeviceFrame frame = std::move(result).value();
+    silent_for_ = {};
+    fault_.clear();
+    const Stamp stamp = stamper_->stamp(frame);
+    counter_.add(frame.id, stamp);
+    return CapturedFrame{stamp, std::move(frame)};
+  }
+  if (result.error() == NoFrame::kEnd) {
+    lose(CaptureState::kOver, "the recording is over");
+  } else if (result.error() == NoFrame::kTimeout) {
+    wait_longer();
+  } else {
+    silent_for_ = {};
+    missed_.add(result.error());
+  }
+  return std::nullopt;
+}
+
+void Capture::wait_longer() {
+  silent_for_ += kPatience;
+  const Duration three_frames = from_seconds(3 * std::max(counter_.period_s(), 1 / settings_.rate_hz.value_or(1e9)));
+  if (info_.triggered || silent_for_ < std::max(kSilence, three_frames)) return;
+  missed_.add(NoFrame::kTimeout);
+  lose(CaptureState::kSilent, info_.name + " is silent");
+}
+
+void Capture::lose(CaptureState state, const std::string& why) {
+  state_ = state;
+  fault_ = why;
+}
+
+CaptureReport Capture::report() const {
+  CaptureReport report;
+  report.state = state_;
+  report.fault = fault_;
+  report.camera = info_.name;
+  report.frames = frames_before_ + counter_.frames();
+  report.dropped = dropped_before_ + counter_.dropped();
+  report.reconnects = reconnects_;
+  report.missed = missed_;
+  report.clock_restarts = clock_restarts_before_;
+  if (counter_.period_s() > 0) report.rate_hz = 1 / counter_.period_s();
+  report.jitter_s = counter_.jitter_s();
+  if (!stamper_) return report;
+  report.stamping = stamper_->description();
+  report.drift = stamper_->fit().drift();
+  report.clock_restarts += stamper_->fit().restarts();
+  return report;
+}
+
+}  // namespace lodestar

@@ -1,0 +1,70 @@
+#include "file_source.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <thread>
+
+#include "host_clock.hpp"
+#include "pixels.hpp"
+
+namespace lodestar {
+
+FileSource::FileSource(const std::string& address) : path_(address.substr(0, address.find('?'))) {
+  const std::string option = path_.size() < address.size() ? address.substr(path_.size() + 1) : "";
+  if (!option.empty() && option != "loop")
+    throw CameraRefusal({{"file:" + address, 0, "'" + option + "' is no option: only ?loop is"}});
+  loop_ = !option.empty();
+  is_sequence_ = path_.find('%') != std::string::npos;
+  rewind();
+}
+
+void FileSource::rewind() {
+  const bool may_be = is_sequence_ || std::filesystem::is_regular_file(path_);  // OpenCV would say much, and try URLs
+  if (may_be) capture_.open(path_, is_sequence_ ? cv::CAP_IMAGES : cv::CAP_ANY);
+  if (!capture_.isOpened()) throw CameraError("file:" + path_ + " is no video or image sequence that can be read");
+}
+
+SourceInfo FileSource::start(const CameraSettings& settings, const FrameAllocator& allocate) {
+  CameraLimits limits;
+  limits.rate_hz = SettingRange{0.1, 1000};
+  const std::string name = "file:" + path_;
+  Faults faults = check_settings(settings, limits, name);
+  const double rate_hz = settings.rate_hz ? *settings.rate_hz : is_sequence_ ? 0 : capture_.get(cv::CAP_PROP_FPS);
+  if (!(rate_hz > 0)) faults.push_back({name, 0, "rate_hz is missing: the files do not say how fast they were taken"});
+  if (!faults.empty()) throw CameraRefusal(faults);
+
+  allocate_ = allocate;
+  period_ = from_seconds(1 / rate_hz);
+  due_ = host_now();
+  SourceInfo info;
+  info.name = name;
+  info.clock.stamped = SourceClock::Stamped::kExposureMiddle;
+  info.clock.heard_at_arrival = false;
+  return info;
+}
+
+bool FileSource::read() {
+  if (capture_.read(image_)) return true;
+  if (!loop_) return false;
+  rewind();
+  return capture_.read(image_);
+}
+
+Result<DeviceFrame, NoFrame> FileSource::next(Duration timeout) {
+  const Duration wait = due_ - host_now();
+  std::this_thread::sleep_for(std::min(wait, timeout));
+  if (wait > timeout) return NoFrame::kTimeout;
+  const Stamp shot = due_;
+  // A machine that cannot keep up skips no frames but gets them late.
+  due_ = std::max(due_ + period_, host_now() - period_);
+  if (!read()) return NoFrame::kEnd;
+  auto frame = frame_of(image_, allocate_);
+  if (!frame) return NoFrame::kFormat;
+  frame->id = id_++;
+  frame->ticks = static_cast<std::uint64_t>(shot.time_since_epoch().count());
+  frame->heard = {frame->ticks, shot};
+  return *frame;
+}
+
+}  // namespace lodestar

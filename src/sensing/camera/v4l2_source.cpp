@@ -1,0 +1,184 @@
+#include "lodestar/sensing/camera/v4l2_source.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <opencv2/core.hpp>
+
+#include "pixels.hpp"
+#include "v4l2_limits.hpp"
+
+namespace lodestar {
+namespace {
+
+constexpr std::uint32_t kBuffers = 4;
+std::int64_t now_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
+
+/// The kernel's steady clock, which stamps the frames, and the host's, read together.
+ClockPair both_clocks() {
+  return {static_cast<std::uint64_t>(now_ns(CLOCK_MONOTONIC)), Stamp(Duration(now_ns(CLOCK_REALTIME)))};
+}
+
+v4l2_buffer mapped_buffer(std::uint32_t index) {
+  auto buffer = of_capture<v4l2_buffer>();
+  buffer.memory = V4L2_MEMORY_MMAP;
+  buffer.index = index;
+  return buffer;
+}
+
+}  // namespace
+
+V4l2Source::V4l2Source(std::string device, std::unique_ptr<V4l2Port> port)
+    : name_("v4l2:" + std::move(device)), port_(std::move(port)) {}
+
+V4l2Source::~V4l2Source() {
+  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  if (streaming_) port_->control(VIDIOC_STREAMOFF, &type);
+}
+
+void V4l2Source::demand(unsigned long request, void* argument, const std::string& doing) {
+  const int fault = port_->control(request, argument);
+  if (fault != 0) throw CameraError(name_ + ": " + doing + ": " + std::strerror(fault));
+}
+
+void V4l2Source::refuse(const std::string& what) const { throw CameraRefusal({{name_, 0, what}}); }
+
+void V4l2Source::set(std::uint32_t control, double value) {
+  v4l2_control setting{control, static_cast<std::int32_t>(std::lround(value))};
+  demand(VIDIOC_S_CTRL, &setting, "setting a control");
+}
+
+void V4l2Source::set_if_there(std::uint32_t control, std::int32_t value) {
+  if (v4l2_query(*port_, control)) set(control, value);
+}
+
+double V4l2Source::exposure_s() {
+  v4l2_control exposure{V4L2_CID_EXPOSURE_ABSOLUTE, 0};
+  return port_->control(VIDIOC_G_CTRL, &exposure) == 0 ? exposure.value * kV4l2ExposureUnit_s : 0;
+}
+
+void V4l2Source::set_format(const CameraSettings& settings) {
+  auto format = of_capture<v4l2_format>();
+  demand(VIDIOC_G_FMT, &format, "asking for its format");
+  format.fmt.pix.pixelformat = v4l2_format_of(settings.pixel_format);
+  if (settings.width_px) format.fmt.pix.width = static_cast<std::uint32_t>(*settings.width_px);
+  if (settings.height_px) format.fmt.pix.height = static_cast<std::uint32_t>(*settings.height_px);
+  format.fmt.pix.field = V4L2_FIELD_NONE;
+  const v4l2_pix_format asked = format.fmt.pix;
+  demand(VIDIOC_S_FMT, &format, "setting its format");
+  format_ = format.fmt.pix;
+  if (asked.pixelformat != format_.pixelformat || asked.width != format_.width || asked.height != format_.height) {
+    refuse(settings.pixel_format + " of " + std::to_string(asked.width) + " x " + std::to_string(asked.height) +
+           " px is none of its modes, the nearest has " + std::to_string(format_.width) + " x " +
+           std::to_string(format_.height) + " px: v4l2-ctl --list-formats-ext shows all");
+  }
+}
+
+void V4l2Source::set_rate(double rate_hz) {
+  constexpr std::uint32_t kThousandths = 1000;
+  auto parameters = of_capture<v4l2_streamparm>();
+  parameters.parm.capture.timeperframe = {kThousandths,
+                                          static_cast<std::uint32_t>(std::lround(rate_hz * kThousandths))};
+  demand(VIDIOC_S_PARM, &parameters, "setting its frame rate");
+  const double got_hz = v4l2_rate(parameters.parm.capture.timeperframe);
+  if (std::abs(got_hz - rate_hz) < 0.01 * rate_hz) return;
+  refuse("rate_hz is " + std::to_string(rate_hz) + ", the nearest that the camera has is " + std::to_string(got_hz));
+}
+
+SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocator& allocate) {
+  v4l2_capability capability{};
+  demand(VIDIOC_QUERYCAP, &capability, "it is no video device");
+  const std::uint32_t can =
+      capability.capabilities & V4L2_CAP_DEVICE_CAPS ? capability.device_caps : capability.capabilities;
+  if (!(can & V4L2_CAP_VIDEO_CAPTURE) || !(can & V4L2_CAP_STREAMING)) refuse("it is no camera that streams");
+
+  CameraLimits limits = v4l2_limits(*port_);
+  if (limits.pixel_formats.empty()) refuse("it has none of mono8, mono16, yuyv, mjpeg");
+  CameraSettings chosen = settings;
+  chosen.rate_hz.reset();  // its range depends on the format
+  Faults faults = check_settings(chosen, limits, name_);
+  if (!faults.empty()) throw CameraRefusal(faults);
+  if (chosen.pixel_format.empty()) chosen.pixel_format = limits.pixel_formats.front();
+  set_format(chosen);
+  limits.rate_hz = v4l2_rates(*port_, format_);
+  faults = check_settings(settings, limits, name_);
+  if (!faults.empty()) throw CameraRefusal(faults);
+
+  set_if_there(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL);
+  set_if_there(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);  // it would lower the rate in the dark
+  set_if_there(V4L2_CID_AUTOGAIN, 0);
+  if (settings.rate_hz) set_rate(*settings.rate_hz);
+  if (settings.exposure_s) set(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kV4l2ExposureUnit_s);
+  if (settings.gain) set(V4L2_CID_GAIN, *settings.gain);
+
+  SourceInfo info;
+  info.name = name_ + " " + reinterpret_cast<const char*>(capability.card);
+  info.exposure_s = exposure_s();
+  info.clock.frame_id_bits = 32;
+  allocate_ = allocate;
+  map_buffers(info.clock);
+  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  demand(VIDIOC_STREAMON, &type, "starting");
+  streaming_ = true;
+  return info;
+}
+
+void V4l2Source::map_buffers(SourceClock& clock) {
+  auto request = of_capture<v4l2_requestbuffers>();
+  request.count = kBuffers;
+  request.memory = V4L2_MEMORY_MMAP;
+  demand(VIDIOC_REQBUFS, &request, "asking for buffers");
+  for (std::uint32_t index = 0; index < request.count; ++index) {
+    v4l2_buffer buffer = mapped_buffer(index);
+    demand(VIDIOC_QUERYBUF, &buffer, "asking for a buffer");
+    std::uint8_t* const data = port_->map(buffer.length, buffer.m.offset);
+    if (data == nullptr) throw CameraError(name_ + ": its buffers cannot be mapped");
+    buffers_.push_back({data, buffer.length});
+    if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
+      refuse("its driver does not stamp frames by the steady clock");
+    const bool at_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+    clock.stamped = at_start ? SourceClock::Stamped::kExposureStart : SourceClock::Stamped::kExposureEnd;
+    clock.heard_at_arrival = false;
+    demand(VIDIOC_QBUF, &buffer, "handing it a buffer");
+  }
+}
+
+Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
+  if (!port_->wait(timeout)) return NoFrame::kTimeout;
+  v4l2_buffer buffer = mapped_buffer(0);
+  const int fault = port_->control(VIDIOC_DQBUF, &buffer);
+  if (fault == EAGAIN) return NoFrame::kTimeout;
+  if (fault != 0) throw CameraError(name_ + " is gone: " + std::strerror(fault));
+
+  const bool broken = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.index >= buffers_.size();
+  auto frame = broken ? std::nullopt : unpack(buffer);
+  demand(VIDIOC_QBUF, &buffer, "handing back a buffer");
+  if (!frame) return NoFrame::kIncomplete;
+  frame->id = buffer.sequence;
+  frame->ticks =
+      static_cast<std::uint64_t>(buffer.timestamp.tv_sec * 1'000'000'000LL + buffer.timestamp.tv_usec * 1000LL);
+  frame->heard = both_clocks();
+  return *frame;
+}
+
+std::optional<DeviceFrame> V4l2Source::unpack(const v4l2_buffer& buffer) const {
+  const Buffer& mapped = buffers_[buffer.index];
+  const std::size_t bytes = std::min<std::size_t>(buffer.bytesused, mapped.bytes);
+  const int width = static_cast<int>(format_.width), height = static_cast<int>(format_.height);
+  if (format_.pixelformat == V4L2_PIX_FMT_MJPEG) return frame_of_jpeg(mapped.data, bytes, width, height, allocate_);
+
+  const bool grey = format_.pixelformat == V4L2_PIX_FMT_GREY;
+  const std::size_t row_bytes = format_.width * (grey ? 1u : 2u);
+  const std::size_t stride = std::max<std::size_t>(format_.bytesperline, row_bytes);
+  if (bytes < stride * (format_.height - 1) + row_bytes) return std::nullopt;
+  if (format_.pixelformat == V4L2_PIX_FMT_YUYV) return frame_of_yuyv(mapped.data, width, height, stride, allocate_);
+  return frame_of(cv::Mat(height, width, grey ? CV_8UC1 : CV_16UC1, mapped.data, stride), allocate_);
+}
+
+}  // namespace lodestar

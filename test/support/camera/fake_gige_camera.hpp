@@ -1,0 +1,58 @@
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace lodestar::test {
+
+/// Aravis' fake GigE Vision camera as a process of its own, on 127.0.0.1. It has the port of all such cameras: whoever
+/// else on this machine tests with one waits until this one is gone.
+class FakeGigeCamera {
+ public:
+  static constexpr const char* kUri = "gige:127.0.0.1";
+
+  explicit FakeGigeCamera(int lost_packets_per_thousand = 0) : lost_(std::to_string(lost_packets_per_thousand)) {
+    flock(lock_, LOCK_EX);
+    plug_in();
+  }
+  ~FakeGigeCamera() {
+    unplug();
+    close(lock_);
+  }
+  FakeGigeCamera(const FakeGigeCamera&) = delete;
+  FakeGigeCamera& operator=(const FakeGigeCamera&) = delete;
+
+  static bool installed() { return access(kProgram, X_OK) == 0; }
+
+  void plug_in() {
+    process_ = fork();
+    if (process_ == 0) {
+      execl(kProgram, kProgram, "-i", "127.0.0.1", "-r", lost_.c_str(), nullptr);
+      _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // until it listens
+  }
+  void unplug() {
+    if (process_ <= 0) return;
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+    process_ = 0;
+  }
+  void freeze() { kill(process_, SIGSTOP); }
+  void thaw() { kill(process_, SIGCONT); }
+
+ private:
+  static constexpr const char* kProgram = "/usr/bin/arv-fake-gv-camera-0.8";
+  int lock_ = open("/tmp/lodestar_fake_gige_camera.lock", O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+  std::string lost_;
+  pid_t process_ = 0;
+};
+
+}  // namespace lodestar::test

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "lodestar/base/geometry/camera_model.hpp"
+#include "lodestar/base/geometry/rigid_transform.hpp"
+#include "lodestar/base/measurement/image.hpp"
+#include "support/noise.hpp"
+
+namespace lodestar::test {
+
+/// What a camera sees of a flat picture: each pixel is the mean of rays through its area, exactly by the lens's model,
+/// blurred and with noise.
+class BoardRenderer {
+ public:
+  static constexpr int kRays = 4;          ///< each way in a pixel
+  static constexpr double kBlur_px = 0.7;  ///< of the lens, sigma
+
+  explicit BoardRenderer(const CameraModel& camera)
+      : size_(camera.intrinsics().width_px, camera.intrinsics().height_px) {
+    for (int v = 0; v < size_.height; ++v)
+      for (int u = 0; u < size_.width; ++u)
+        for (int i = 0; i < kRays * kRays; ++i) {
+          const Eigen::Vector2d within((i % kRays + 0.5) / kRays - 0.5, (i / kRays + 0.5) / kRays - 0.5);
+          const auto bearing = camera.bearing(Eigen::Vector2d(u, v) + within);
+          rays_.push_back(bearing ? bearing->direction.cast<float>().eval() : Eigen::Vector3f::Zero());
+        }
+  }
+
+  /// @param picture grey, its upper left corner at board (0, 0), x to the right, y down, or up when `y_up`
+  cv::Mat render(const cv::Mat& picture, double pixels_per_m, const RigidTransform& T_camera_board, bool y_up,
+                 std::uint64_t seed) const {
+    constexpr float kWall = 110;
+    Noise noise(seed * 1'000'003);
+    const Eigen::Matrix3f R = T_camera_board.linear().transpose().cast<float>();
+    const Eigen::Vector3f eye = (T_camera_board.inverse() * Eigen::Vector3d::Zero()).cast<float>();
+    const auto scale = static_cast<float>(pixels_per_m);
+    cv::Mat image(size_, CV_32FC1);
+    const Eigen::Vector3f* ray = rays_.data();
+    for (int v = 0; v < size_.height; ++v)
+      for (int u = 0; u < size_.width; ++u) {
+        float sum = 0;
+        for (int i = 0; i < kRays * kRays; ++i, ++ray) {
+          const Eigen::Vector3f d = R * *ray;
+          const float range = -eye.z() / d.z();
+          const float x = (eye.x() + range * d.x()) * scale;
+          const float y = (y_up ? picture.rows - (eye.y() + range * d.y()) * scale : (eye.y() + range * d.y()) * scale);
+          const bool hit = range > 0 && x >= 0 && y >= 0 && x < picture.cols && y < picture.rows;
+          sum += hit ? picture.at<std::uint8_t>(static_cast<int>(y), static_cast<int>(x)) : kWall;
+        }
+        image.at<float>(v, u) = 20 + 0.8f * sum / (kRays * kRays) + static_cast<float>(noise.normal());
+      }
+    cv::GaussianBlur(image, image, cv::Size(), kBlur_px);
+    cv::Mat grey;
+    image.convertTo(grey, CV_8U);
+    return grey;
+  }
+
+ private:
+  cv::Size size_;
+  std::vector<Eigen::Vector3f> rays_;
+};
+
+/// The image as the core sees it; `pixels` must outlive it.
+inline Image image_of(const cv::Mat& pixels) {
+  Image image;
+  image.width_px = pixels.cols;
+  image.height_px = pixels.rows;
+  image.stride_bytes = pixels.step;
+  image.data = pixels.data;
+  return image;
+}
+
+/// A board held before the camera so that its middle is seen at a direction, tilted against it.
+inline RigidTransform board_in_view(const Eigen::Vector2d& middle_m, double range_m, double off_axis_rad,
+                                    double azimuth_rad, const Eigen::Vector3d& tilt) {
+  const Eigen::Vector3d axis(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0);
+  const Eigen::Matrix3d towards = so3_exp(off_axis_rad * axis);
+  RigidTransform T = RigidTransform::Identity();
+  T.linear() = towards * so3_exp(tilt);
+  T.translation() =
+      towards * Eigen::Vector3d(0, 0, range_m) - T.linear() * Eigen::Vector3d(middle_m.x(), middle_m.y(), 0);
+  return T;
+}
+
+}  // namespace lodestar::test

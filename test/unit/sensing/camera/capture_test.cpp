@@ -1,0 +1,134 @@
+#include "lodestar/sensing/camera/capture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "support/camera/heap_frames.hpp"
+
+namespace lodestar {
+namespace {
+
+enum class Step { kFrame, kTimeout, kIncomplete, kEnd, kGone };
+
+/// What a camera does next; every camera that is opened reads from the same script.
+struct Script {
+  std::deque<Step> steps;
+  std::deque<bool> there;  ///< for each opening; then: yes
+  int opened = 0, open_now = 0;
+  bool triggered = false;
+};
+
+class ScriptedSource : public FrameSource {
+ public:
+  explicit ScriptedSource(Script& script) : script_(script) {
+    ++script_.opened;
+    ++script_.open_now;
+  }
+  ~ScriptedSource() override { --script_.open_now; }
+  SourceInfo start(const CameraSettings&, const FrameAllocator&) override {
+    SourceInfo info;
+    info.name = "scripted";
+    info.triggered = script_.triggered;
+    return info;
+  }
+  Result<DeviceFrame, NoFrame> next(Duration) override {
+    const Step step = script_.steps.empty() ? Step::kTimeout : script_.steps.front();
+    if (!script_.steps.empty()) script_.steps.pop_front();
+    if (step == Step::kTimeout) return NoFrame::kTimeout;
+    if (step == Step::kIncomplete) return NoFrame::kIncomplete;
+    if (step == Step::kEnd) return NoFrame::kEnd;
+    if (step == Step::kGone) throw CameraError("gone");
+    DeviceFrame frame;
+    frame.id = id_++;
+    frame.ticks = id_ * 10'000'000;
+    frame.heard = {frame.ticks, Stamp(Duration(frame.ticks))};
+    return frame;
+  }
+
+ private:
+  Script& script_;
+  std::uint64_t id_ = 1;
+};
+
+class CaptureTest : public testing::Test {
+ protected:
+  CaptureTest()
+      : capture_(
+            [this] {
+              const bool there = script_.there.empty() || script_.there.front();
+              if (!script_.there.empty()) script_.there.pop_front();
+              if (!there) throw CameraError("not there");
+              EXPECT_EQ(script_.open_now, 0) << "a device serves one at a time";
+              return std::make_unique<ScriptedSource>(script_);
+            },
+            {}, frames_.allocator(), 0) {}
+
+  int frames_of(int calls) {
+    int frames = 0;
+    for (int i = 0; i < calls; ++i) frames += capture_.next().has_value();
+    return frames;
+  }
+
+  Script script_;
+  test::HeapFrames frames_;
+  Capture capture_;
+};
+
+TEST_F(CaptureTest, FramesCome) {
+  script_.steps.assign(5, Step::kFrame);
+  EXPECT_EQ(frames_of(5), 5);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().reconnects, 0u);
+}
+
+TEST_F(CaptureTest, SilenceIsToldWithinHalfASecondAndThenTheCameraIsOpenedAnew) {
+  script_.steps.assign(1, Step::kFrame);
+  script_.steps.insert(script_.steps.end(), 5, Step::kTimeout);
+  script_.steps.push_back(Step::kFrame);
+  EXPECT_EQ(frames_of(6), 1);
+  EXPECT_EQ(capture_.report().state, CaptureState::kSilent);
+  EXPECT_EQ(capture_.report().fault, "scripted is silent");
+  EXPECT_EQ(script_.opened, 1);
+  EXPECT_EQ(frames_of(1), 1);
+  EXPECT_EQ(script_.opened, 2);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().reconnects, 1u);
+  EXPECT_EQ(capture_.report().fault, "");
+}
+
+TEST_F(CaptureTest, ACameraThatWaitsForItsTriggerMayBeSilent) {
+  script_.triggered = true;
+  EXPECT_EQ(frames_of(50), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(script_.opened, 1);
+}
+
+TEST_F(CaptureTest, ACameraThatIsGoneIsTriedUntilItIsBack) {
+  script_.steps = {Step::kFrame, Step::kGone, Step::kFrame};
+  script_.there = {true, false, false, true};
+  EXPECT_EQ(frames_of(2), 1);
+  EXPECT_EQ(capture_.report().fault, "gone");
+  EXPECT_EQ(frames_of(2), 0);
+  EXPECT_EQ(capture_.report().fault, "not there");
+  EXPECT_EQ(capture_.report().state, CaptureState::kClosed);
+  EXPECT_EQ(frames_of(1), 1);
+  EXPECT_EQ(capture_.report().reconnects, 1u);
+}
+
+TEST_F(CaptureTest, LostPacketsAreCountedAndAreNoSilence) {
+  script_.steps.assign(20, Step::kIncomplete);
+  EXPECT_EQ(frames_of(20), 0);
+  EXPECT_EQ(capture_.report().missed[NoFrame::kIncomplete], 20u);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+}
+
+TEST_F(CaptureTest, ARecordingEnds) {
+  script_.steps = {Step::kFrame, Step::kEnd};
+  EXPECT_EQ(frames_of(10), 1);
+  EXPECT_EQ(capture_.report().state, CaptureState::kOver);
+  EXPECT_EQ(script_.opened, 1);
+}
+
+}  // namespace
+}  // namespace lodestar
