@@ -49,8 +49,9 @@ void FusionStage::add_sightings(const Sightings& sightings) {
     if (auto found = places_.add_sightings(sightings)) filter_ = std::move(*found);
     return;
   }
-  const BeaconBearings named = bearings(sightings, *camera_.model, beacons_, calibration_sigma_px_);
+  const BeaconBearings named = bearings(sightings, *camera_.model, watch_.trusted(beacons_), calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
+  if (watch_.due(sightings.stamp)) watch_.add(sightings.stamp, filter_.beacon_checks());
 }
 
 void FusionStage::add_fix(const Fix& fix) {
@@ -64,6 +65,7 @@ void FusionStage::add_fix(const Fix& fix) {
 void FusionStage::reset() {
   filter_.reset();
   places_.reset();
+  watch_.reset_time();
   sightings_stamp_.reset();
 }
 

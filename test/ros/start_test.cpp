@@ -114,6 +114,7 @@ TEST(Launch, EveryFileParsesAndNamesItsNodes) {
   } cases[] = {{"bringup.launch", site, all + " /lodestar_manager"},
                {"bringup.launch", site + " start_manager:=false visualization:=true", all + " /visualization"},
                {"bringup.launch", site + " camera:=gige:", all + " /camera_capture /lodestar_manager"},
+               {"bringup.launch", site + " ir:=serial:/dev/ttyUSB0", all + " /ir_receiver"},
                {"replay.launch", site + " bag:=/tmp/x.bag rviz:=true", all + " /player /rviz /visualization"},
                {"wms_bridge.launch", " store:=/tmp/wms.db broker:=tcp://localhost:1", "/wms_bridge"},
                {"demo.launch", " rviz:=true", all + " /simulation /rviz /visualization"}};

@@ -8,6 +8,7 @@
 #include "lodestar/base/measurement/sighting.hpp"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/estimation/fusion/pose_filter.hpp"
+#include "lodestar/line/beacon_watch.hpp"
 #include "lodestar/line/camera_mount.hpp"
 #include "lodestar/line/line_params.hpp"
 #include "lodestar/line/place_hypotheses.hpp"
@@ -32,6 +33,10 @@ class FusionStage {
   void add_sightings(const Sightings& sightings);
   void add_fix(const Fix& fix);
 
+  /// Beacons that disagree with the rest for long: left out until somebody confirms them.
+  const std::set<BeaconId>& distrusted() const { return watch_.distrusted(); }
+  void confirm(BeaconId id) { watch_.confirm(id); }
+
   const PoseFilter& filter() const { return filter_; }
   const PlaceHypotheses& places() const { return places_; }
   void reset();
@@ -45,6 +50,7 @@ class FusionStage {
   bool use_sightings_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
+  BeaconWatch watch_;
   std::optional<Stamp> sightings_stamp_;
 };
 

@@ -55,6 +55,9 @@ void PoseFusionNodelet::onInit() {
       [this](const OdometrySample& sample) { take_odometry(sample); });
   sightings_ = nh.subscribe("beacons/sightings", 10, &PoseFusionNodelet::take_sightings, this);
   fix_ = nh.subscribe("beacons/fix", 10, &PoseFusionNodelet::take_fix, this);
+  confirmed_ = nh.subscribe<BeaconAnnouncement>(
+      "beacons/confirmed", 10,
+      [this](const BeaconAnnouncementConstPtr& message) { stage_->confirm(BeaconId{message->beacon_id}); });
 }
 
 void PoseFusionNodelet::read_params(ParamReader& params) {
@@ -165,6 +168,11 @@ void PoseFusionNodelet::report_liars(Health::Status& status) {
       ids += (ids.empty() ? "" : " ") + std::to_string(check.beacon.value);
   status.add("beacons that lie", ids.empty() ? "none" : ids);
   if (!ids.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "beacons that lie: " + ids);
+  std::string left_out;
+  for (const BeaconId id : stage_->distrusted()) left_out += (left_out.empty() ? "" : " ") + std::to_string(id.value);
+  status.add("left out until confirmed", left_out);
+  if (!left_out.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "left out until confirmed: beacons " + left_out);
 }
 
 void PoseFusionNodelet::reset() {

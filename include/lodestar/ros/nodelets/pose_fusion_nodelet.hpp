@@ -53,7 +53,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   int camera_revision_ = 0;
   std::optional<Stamp> published_, transformed_;
   ros::Publisher pose_, odometry_, integrity_;
-  ros::Subscriber sightings_, fix_;
+  ros::Subscriber sightings_, fix_, confirmed_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
 };
 

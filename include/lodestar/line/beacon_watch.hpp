@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "lodestar/base/common/stamp.hpp"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/estimation/fusion/integrity.hpp"
+
+namespace lodestar {
+
+/// Beacons whose bearings disagree with those to the others for a minute of their being seen: moved, swapped, or hung
+/// up anew. They stay out until somebody confirms them, unlike those that the filter excludes for the moment.
+class BeaconWatch {
+ public:
+  static constexpr double kDisagree_s = 60;
+
+  /// The filter's word on the beacons that it sees, about once a second. Without two others that agree, and more that
+  /// agree than do not, it says nothing: it may be the pose that is wrong.
+  void add(Stamp stamp, const std::vector<BeaconCheck>& checks);
+  bool due(Stamp stamp) const;
+
+  const std::set<BeaconId>& distrusted() const { return distrusted_; }
+  std::vector<Beacon> trusted(const std::vector<Beacon>& beacons) const;
+  void confirm(BeaconId id);
+
+  /// Time went backwards.
+  void reset_time() { last_.reset(); }
+
+ private:
+  std::optional<Stamp> last_;
+  std::map<BeaconId, double> disagreed_s_;
+  std::set<BeaconId> distrusted_;
+};
+
+}  // namespace lodestar
