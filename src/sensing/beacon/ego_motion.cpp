@@ -11,6 +11,7 @@ namespace lodestar {
 namespace {
 
 constexpr double kGate = 2 * 9.0;                  ///< 3 sigma, both components
+constexpr int kLeastBlobs = 3;                     ///< two may be one truck's lamps
 constexpr double kFirstSigma = 2;                  ///< rad/s, plane heights/s
 constexpr double kMinStep = 0.03, kMaxStep = 0.5;  ///< a frame
 constexpr double kNone = 1e-3;                     ///< freedom of what the kind of motion does not have
@@ -58,7 +59,6 @@ EgoMotion::Fit EgoMotion::fit(const std::vector<Flow>& flows, const CameraModel&
 }
 
 bool EgoMotion::start(const std::vector<Flow>& flows, const CameraModel& camera, double interval_s) {
-  constexpr int kLeastBlobs = 3;  // two may be one truck's lamps
   constexpr double kLeastStepPx = 0.1;
   const auto count = static_cast<int>(flows.size());
   if (count < kLeastBlobs) return false;
@@ -94,9 +94,11 @@ EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows, const CameraM
   const bool agreed = change.agreeing > 0 && 2 * change.agreeing >= static_cast<int>(flows.size());
   doubted_ = agreed ? 0 : doubted_ + 1;
   known_ = doubted_ <= kPatience;
+  // What one or two blobs show beside the trend may be their own.
+  const bool trusted = agreed && change.agreeing >= kLeastBlobs;
+  trend_ = trusted ? Twist((1 - kTrendFades) * (trend_ + kTrendGain * change.twist)) : Twist(0.5 * trend_);
   if (!agreed) return Twist::Zero();
   twist_ += change.twist;
-  trend_ = (1 - kTrendFades) * (trend_ + kTrendGain * change.twist);
   return change.twist;
 }
 

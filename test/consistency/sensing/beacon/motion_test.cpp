@@ -46,13 +46,13 @@ TEST(HandHeld, CameraAlone) {
   MotionCase motion;
   motion.path = Path::kHandHeld;
   motion.motion_input = false;
-  for (const bool square : {false, true}) {
-    motion.square = square;
-    for (const double speed : {1., 3.}) {
-      motion.speed = speed;
-      expect_within_limits(motion, std::to_string(speed) + " px a frame");
-    }
+  for (const double speed : {1., 4.}) {
+    motion.speed = speed;
+    expect_within_limits(motion, std::to_string(speed) + " px a frame");
   }
+  motion.square = true;
+  motion.speed = 1;
+  expect_within_limits(motion, "on-off, 1 px a frame");
 }
 
 TEST(Frames, MayJitterAndGetLost) {
