@@ -96,7 +96,7 @@ class Drive {
       out.sightings.push_back(s);
       if (ir_receiver_) heard.push_back(b.id);
     }
-    BeaconNamer({}).name(out, beacons_, heard, *camera_.model, camera_.T_base_camera,
+    BeaconNamer({}).name(out, beacons_, heard, {}, *camera_.model, camera_.T_base_camera,
                          stage_.filter().estimate_at(stamp(t_s)));
     return out;
   }
