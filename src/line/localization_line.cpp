@@ -56,7 +56,7 @@ Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const RawIrFrame& fr
   if (const auto reason = table_.accept(*announcement)) return *reason;
   share_beacons();
   arrivals_.add(*announcement);
-  if (pose_.camera_is_blind(announcement->stamp)) fix_by_arrivals(announcement->stamp);
+  if (pose_.coarse_fix_due(announcement->stamp)) fix_by_arrivals(announcement->stamp);
   return announcement;
 }
 

@@ -76,13 +76,13 @@ const Beacon* PoseStage::find(BeaconId id) const {
   return found == beacons_.end() ? nullptr : &*found;
 }
 
-bool PoseStage::camera_is_blind(Stamp now) {
+bool PoseStage::coarse_fix_due(Stamp now) {
   if (!last_seen_) last_seen_ = now;
-  return now - *last_seen_ > kBlindAfter;
+  return now - *last_seen_ > kBlindAfter && (!last_coarse_fix_ || now - *last_coarse_fix_ >= kCoarseEvery);
 }
 
 Result<Fix, NoFix> PoseStage::coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir,
-                                         Stamp stamp, const std::optional<PoseEstimate>& prior) const {
+                                         Stamp stamp, const std::optional<PoseEstimate>& prior) {
   const auto tilt = tilt_.tilt();
   if (!tilt) return NoFix::kNoTilt;
   BeaconBearings bearings{stamp, {}};
@@ -92,12 +92,15 @@ Result<Fix, NoFix> PoseStage::coarse_fix(const std::vector<Arrival>& arrivals, c
           {beacon->id, beacon->position_map, beacon->sigma_m, arrival.direction_base, arrival.covariance});
   RigidTransform T_base_bearing = RigidTransform::Identity();  // the arrivals are in base_link's axes already
   T_base_bearing.translation() = T_base_ir.translation();
-  return coarse_solver_.solve(bearings, *tilt, T_base_bearing, prior);
+  auto fix = coarse_solver_.solve(bearings, *tilt, T_base_bearing, prior);
+  if (fix) last_coarse_fix_ = stamp;
+  return fix;
 }
 
 void PoseStage::reset() {
   tilt_.reset();
   last_seen_.reset();
+  last_coarse_fix_.reset();
 }
 
 }  // namespace lodestar

@@ -37,14 +37,16 @@ class PoseStage {
   /// @param arrivals tell two poses apart that the sightings leave
   Result<Fix, NoFix> process(const Sightings& sightings, const std::vector<Arrival>& arrivals);
 
-  /// No blob with a code was seen for kBlindAfter before `now`, or since this was asked first.
-  bool camera_is_blind(Stamp now);
+  /// No blob with a code was seen for kBlindAfter before `now`, or since this was asked first; and the coarse fix
+  /// before is kCoarseEvery ago, so that no frame counts in several.
+  bool coarse_fix_due(Stamp now);
   /// The pose of base_link at `stamp` from arrivals alone, some decimetres wide (docs/math/irlink.md).
   /// @param prior settles which of two poses it is
   Result<Fix, NoFix> coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir, Stamp stamp,
-                                const std::optional<PoseEstimate>& prior) const;
+                                const std::optional<PoseEstimate>& prior);
 
   static constexpr Duration kBlindAfter = std::chrono::seconds(2);
+  static constexpr Duration kCoarseEvery = std::chrono::seconds(1);  ///< a superframe: all are heard anew
 
   /// All poses that these names leave open, or why there is none.
   Result<PoseSolutions, NoFix> solutions(const Sightings& sightings) const;
@@ -64,6 +66,7 @@ class PoseStage {
   CameraMount camera_;
   std::vector<Beacon> beacons_;
   std::optional<Stamp> last_seen_;  ///< blob with a code; until there is one: the start
+  std::optional<Stamp> last_coarse_fix_;
   DropCounts<NoFix> refusals_;
 };
 

@@ -42,8 +42,8 @@ struct TruePallets {
 /// One sample and when it reaches the computer.
 struct Event {
   Stamp received;
-  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, IrSampleBlock, TrueBase, TrueCamera, Fix, LoadSample,
-               TruePallets>
+  std::variant<Image, ImuSample, OdometrySample, RawIrFrame, TrueBase, TrueCamera, Fix, LoadSample, TruePallets,
+               IrSampleBlock>
       data;
 };
 

@@ -64,12 +64,12 @@ void PoseSolvingNodelet::take_sightings(const BeaconSightingArrayConstPtr& messa
   fix_watch_->tick();
 }
 
-/// While the camera is blind each announcement makes a coarse fix.
+/// While the camera is blind, one announcement a second makes a coarse fix.
 void PoseSolvingNodelet::take_announcement(const Announcement& announcement) {
   Arrivals& arrivals = arrivals_->arrivals();
   arrivals.add(announcement);
   const Stamp stamp = announcement.stamp;
-  if (!stage_->camera_is_blind(stamp) || !arrivals.mount()) return;
+  if (!stage_->coarse_fix_due(stamp) || !arrivals.mount()) return;
   const bool known = estimate_ && std::abs(seconds(stamp - estimate_->stamp)) < 1.0;
   const auto fix = stage_->coarse_fix(arrivals.recent(stamp), *arrivals.mount(), stamp,
                                       known ? std::optional<PoseEstimate>(*estimate_) : std::nullopt);
