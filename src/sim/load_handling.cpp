@@ -64,7 +64,7 @@ void LoadHandling::add_new(const RigidTransform& T_map_fork) {
   Pallet pallet;
   std::string digits = std::to_string(pallets_.size() + 1);
   digits.insert(0, kSsccDigits - 1 - digits.size(), '0');
-  pallet.sscc = digits + sscc_check_digit(digits);
+  pallet.sscc = digits + gs1_check_digit(digits);
   pallet.id = pallet.sscc;
   pallet.type = params_.size.type;
   pallet.T_map_pallet = T_map_fork * nominal_seat(params_.size, 0, {}).T_fork_pallet * T_seat_pallet;

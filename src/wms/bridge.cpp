@@ -1,5 +1,6 @@
 #include "lodestar/wms/bridge.hpp"
 
+#include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/wms/gs1.hpp"
 #include "lodestar/wms/random_uuid.hpp"
 
@@ -54,7 +55,7 @@ void Bridge::with_store(const ClockReading& now, Job job) {
 
 void Bridge::take(PalletChange change, const ClockReading& now) {
   if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
-  if (!change.pallet.sscc.empty() && !valid_sscc(change.pallet.sscc)) {
+  if (!change.pallet.sscc.empty() && !is_sscc(change.pallet.sscc)) {
     drops_.add(BridgeDrop::kLabel);
     change.pallet.sscc.clear();
   }

@@ -2,22 +2,13 @@
 
 #include <algorithm>
 
+#include "lodestar/base/measurement/sscc.hpp"
+
 namespace lodestar {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// Weights 3 and 1 in turn from the right, the check digit itself counted with 1: the sum is a multiple of 10.
-bool has_check_digit(std::string_view digits) {
-  int sum = 0;
-  for (std::size_t i = 0; i < digits.size(); ++i) sum += (digits[digits.size() - 1 - i] - '0') * (i % 2 == 0 ? 1 : 3);
-  return sum % 10 == 0;
-}
-
-bool is_key(std::string_view text, std::size_t digits) {
-  return text.size() == digits && std::all_of(text.begin(), text.end(), is_digit) && has_check_digit(text);
-}
 
 bool in_set_82(char c) {
   return is_digit(c) || is_letter(c) || std::string_view("!\"%&'()*+,-./:;<=>?_").find(c) != std::string_view::npos;
@@ -46,9 +37,10 @@ const std::string kDigitalLink = "https://id.gs1.org/";
 
 }  // namespace
 
-bool valid_sscc(std::string_view text) { return is_key(text, 18); }
-
-bool valid_gln(std::string_view text) { return is_key(text, 13); }
+bool valid_gln(std::string_view text) {
+  return text.size() == 13 && std::all_of(text.begin(), text.end(), is_digit) &&
+         text.back() == gs1_check_digit(std::string(text.substr(0, 12)));
+}
 
 bool valid_giai(std::string_view text) { return is_text_of_set_82(text, 30); }
 

@@ -34,7 +34,7 @@ const char* const kNode = "pallet_tracking";
 
 std::string sscc(int number) {
   const std::string digits = std::to_string(10000000000000000 + number);
-  return digits + sscc_check_digit(digits);
+  return digits + gs1_check_digit(digits);
 }
 
 /// The node as a process of its own, that a test can end and start again.

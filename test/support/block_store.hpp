@@ -99,7 +99,7 @@ class BlockStore {
   static std::string sscc(int number) {
     std::string digits = std::to_string(100000000 + number);
     digits.insert(0, 17 - digits.size(), '0');
-    return digits + sscc_check_digit(digits);
+    return digits + gs1_check_digit(digits);
   }
 
   void move() {

@@ -58,7 +58,7 @@ class PalletTruck {
   const Pallet& pallet(const std::string& id) const { return tracker.pallets().find(id)->pallet; }
   static std::string sscc(int number) {
     const std::string digits = std::to_string(10000000000000000 + number);
-    return digits + sscc_check_digit(digits);
+    return digits + gs1_check_digit(digits);
   }
 
   PalletTracker tracker;

@@ -8,9 +8,6 @@ namespace lodestar {
 // GS1 keys (GS1 General Specifications 23, sections 3 and 7.9) and their canonical GS1 Digital Link URIs (GS1
 // Digital Link: URI Syntax 1.2, section 4.11), the only form that the event hash of CBV 2.0 knows.
 
-/// 18 digits, the last of which is the check digit of the others.
-bool valid_sscc(std::string_view text);
-
 /// 13 digits, the last of which is the check digit of the others.
 bool valid_gln(std::string_view text);
 

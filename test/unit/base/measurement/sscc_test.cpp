@@ -9,7 +9,7 @@ TEST(Sscc, has_the_check_digit_of_the_standard) {
   // The SSCC of the GS1 General Specifications' examples, and one from 7.9.1's own scheme worked out by hand.
   EXPECT_TRUE(is_sscc("106141412345678908"));
   EXPECT_TRUE(is_sscc("376104250021234569"));
-  EXPECT_EQ(sscc_check_digit("37610425002123456"), '9');
+  EXPECT_EQ(gs1_check_digit("37610425002123456"), '9');
 }
 
 TEST(Sscc, finds_every_wrong_digit_and_most_swaps) {
