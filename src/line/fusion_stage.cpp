@@ -25,6 +25,7 @@ void FusionStage::set_imu(const Eigen::Vector3d& imu_position_base) {
 
 void FusionStage::set_beacons(const std::vector<Beacon>& beacons) {
   beacons_ = beacons;
+  trusted_ = watch_.trusted(beacons_);
   places_.set_beacons(beacons);
 }
 
@@ -49,9 +50,16 @@ void FusionStage::add_sightings(const Sightings& sightings) {
     if (auto found = places_.add_sightings(sightings)) filter_ = std::move(*found);
     return;
   }
-  const BeaconBearings named = bearings(sightings, *camera_.model, watch_.trusted(beacons_), calibration_sigma_px_);
+  const BeaconBearings named = bearings(sightings, *camera_.model, trusted_, calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
-  if (watch_.due(sightings.stamp)) watch_.add(sightings.stamp, filter_.beacon_checks());
+  if (!watch_.due(sightings.stamp)) return;
+  watch_.add(sightings.stamp, filter_.beacon_checks());
+  trusted_ = watch_.trusted(beacons_);
+}
+
+void FusionStage::confirm(BeaconId id) {
+  watch_.confirm(id);
+  trusted_ = watch_.trusted(beacons_);
 }
 
 void FusionStage::add_fix(const Fix& fix) {

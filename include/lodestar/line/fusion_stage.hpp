@@ -35,7 +35,7 @@ class FusionStage {
 
   /// Beacons that disagree with the rest for long: left out until somebody confirms them.
   const std::set<BeaconId>& distrusted() const { return watch_.distrusted(); }
-  void confirm(BeaconId id) { watch_.confirm(id); }
+  void confirm(BeaconId id);
 
   const PoseFilter& filter() const { return filter_; }
   const PlaceHypotheses& places() const { return places_; }
@@ -49,7 +49,7 @@ class FusionStage {
   double calibration_sigma_px_;
   bool use_sightings_;
   CameraMount camera_;
-  std::vector<Beacon> beacons_;
+  std::vector<Beacon> beacons_, trusted_;
   BeaconWatch watch_;
   std::optional<Stamp> sightings_stamp_;
 };
