@@ -52,8 +52,8 @@ PalletTracker::PalletTracker(const PalletTrackerParams& params, std::function<st
       load_(params.load),
       poses_(params.pose_kept_s, params.pose_age_max_s) {}
 
-void PalletTracker::restore(const Changes& latest, const std::vector<CarriedPallet>& carried) {
-  ledger_.restore(latest);
+void PalletTracker::restore(const Changes& kept, const std::vector<CarriedPallet>& carried) {
+  ledger_.restore(kept);
   carry(carried);
   load_ = LoadWatch(params_.load, !carried.empty());
 }
