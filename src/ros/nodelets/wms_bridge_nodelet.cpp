@@ -6,6 +6,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/PalletEventsAfter.h"
+#include "lodestar/ros/convert/battery.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/nodelets/wms_params.hpp"
@@ -46,6 +47,7 @@ void WmsBridgeNodelet::onInit() {
   state_ = nh.subscribe("pallets/state", 1, &WmsBridgeNodelet::take_state, this);
   pose_ = nh.subscribe("pose", 10, &WmsBridgeNodelet::take_pose, this);
   integrity_ = nh.subscribe("pose/integrity", 10, &WmsBridgeNodelet::take_integrity, this);
+  battery_ = nh.subscribe("battery", 1, &WmsBridgeNodelet::take_battery, this);
   events_after_ = nh.serviceClient<PalletEventsAfter>("pallets/events_after");
   catch_up_ = nh.createWallTimer(ros::WallDuration(kCatchUpPeriod_s), [this](const ros::WallTimerEvent&) {
     if (told_ > bridge_->last_heard()) ask_for_missed();
@@ -102,6 +104,12 @@ void WmsBridgeNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStampedC
 void WmsBridgeNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
   const bool trusted = message->mode == PoseIntegrity::TRACKING || message->mode == PoseIntegrity::COASTING;
   bridge_->telemetry().take_integrity(trusted, message->protection_level_m);
+}
+
+void WmsBridgeNodelet::take_battery(const sensor_msgs::BatteryStateConstPtr& message) {
+  const auto battery = battery_from(*message);
+  if (!battery) return health_->drop(battery.error());
+  bridge_->telemetry().take_battery(*battery, clocks().monotonic);
 }
 
 void WmsBridgeNodelet::report(Health::Status& status) {

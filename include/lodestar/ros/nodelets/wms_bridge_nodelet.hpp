@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nodelet/nodelet.h>
+#include <sensor_msgs/BatteryState.h>
 
 #include <memory>
 #include <string>
@@ -28,6 +29,7 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   void take_state(const PalletArrayConstPtr& message);
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void take_integrity(const PoseIntegrityConstPtr& message);
+  void take_battery(const sensor_msgs::BatteryStateConstPtr& message);
   void report(Health::Status& status);
   void report_trouble(Health::Status& status);
 
@@ -39,7 +41,7 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   StreamWatch* events_watch_ = nullptr;
   StreamWatch* pose_watch_ = nullptr;
   std::uint64_t told_ = 0;  ///< number of the newest event that pallet tracking has
-  ros::Subscriber events_, state_, pose_, integrity_;
+  ros::Subscriber events_, state_, pose_, integrity_, battery_;
   ros::ServiceClient events_after_;
   ros::WallTimer poll_, catch_up_;
 };
