@@ -120,7 +120,8 @@ bool PalletServices::free(FreePlaces::Request& request, FreePlaces::Response& re
     response.message = name(CorrectionFault::kType);
   } else {
     response.success = true;
-    for (const Place& place : free_places(*zone, map.size(request.type), map)) {
+    for (const Place& place :
+         free_places(*zone, map.size(request.type.empty() ? zone->pallet_type : request.type), map)) {
       RigidTransform T_map_pallet = RigidTransform::Identity();
       T_map_pallet.translation() = place.position_map;
       T_map_pallet.linear() = rotation({0, 0, place.yaw_rad});

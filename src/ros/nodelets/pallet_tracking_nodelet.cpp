@@ -46,6 +46,12 @@ void PalletTrackingNodelet::make_tracker() {
   PalletTrackerParams params;
   params.sizes = vehicle.pallets;
   params.zones = edge_->site().zones;
+  Faults faults;
+  for (const Zone& zone : params.zones)
+    if (!zone.pallet_type.empty() && PalletMap(params.sizes).find_size(zone.pallet_type) == nullptr)
+      faults.push_back(
+          {"site", 0, "zone " + zone.code + ": the vehicle file has no pallet '" + zone.pallet_type + "'"});
+  refuse_faults(faults);
   params.sigmas = {vehicle.fork_height_sigma_m, vehicle.seat_sigma_m, vehicle.seat_sigma_rad};
   tracker_ = std::make_unique<PalletTracker>(params, [] {
     static boost::uuids::random_generator generator;

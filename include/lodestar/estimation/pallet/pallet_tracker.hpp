@@ -17,7 +17,7 @@
 namespace lodestar {
 
 struct PalletTrackerParams {
-  std::vector<PalletSize> sizes = {PalletSize{"epal"}};  ///< one at least; the first is what a new pallet is
+  std::vector<PalletSize> sizes = {PalletSize{"epal"}};  ///< one at least; the first is what a new pallet is, where its zone has no other
   std::vector<Zone> zones;
   ForkSigmas sigmas;
   LoadWatchParams load;
@@ -85,6 +85,7 @@ class PalletTracker {
   std::optional<Moment> moment(const LoadChange& change);
   bool is_riders(const std::string& label, const Fork& fork) const;
   Association identify(const std::string& label, const std::optional<Moment>& at) const;
+  std::string new_type(const std::optional<Moment>& at) const;
   Seat seat_of(const Pallet& pallet, bool known, const std::optional<Moment>& at) const;
   void pick(const LoadChange& change);
   void pick_riders(const PalletPose& below, const std::string& type, const LoadChange& change, const Moment& at);

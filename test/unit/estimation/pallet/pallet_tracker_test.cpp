@@ -321,8 +321,29 @@ TEST(PalletTracker, refuses_corrections_that_cannot_be) {
   EXPECT_EQ(fault([](C& c) { c.pose = PalletPose(); }), CorrectionFault::kOnFork);
 }
 
+TEST(PalletTracker, a_new_pallet_is_what_its_zone_holds) {
+  PalletTrackerParams params;
+  params.sizes = {{"epal", {1.2, 0.8}}, {"half", {0.8, 0.6}}};
+  Zone zone;
+  zone.polygon_map = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  zone.pallet_type = "half";
+  params.zones = {zone};
+  PalletTruck truck(params);
+  truck.stand(0, 0);
+  const auto lifted = truck.lift();
+  ASSERT_EQ(lifted.size(), 1u);
+  EXPECT_EQ(lifted[0].pallet.type, "half");
+  // Pushed on as far as it goes: half its own length ahead of the fork, which is 0.6 m before the zone's middle.
+  EXPECT_NEAR(lifted[0].pallet.T_map_pallet.translation().x(), -0.2, 1e-9);
+  truck.lower();
+  truck.stand(5, 0);
+  EXPECT_EQ(truck.lift()[0].pallet.type, "epal");
+}
+
 TEST(PalletTracker, takes_a_persons_word) {
-  PalletTruck truck;
+  PalletTrackerParams params;
+  params.sizes = {{"industrial", {1.2, 1.0}}, {"epal", {1.2, 0.8}}};
+  PalletTruck truck(params);
   truck.bring(0, 0);
   PalletCorrection correction;
   correction.stamp = truck.now;
@@ -333,6 +354,12 @@ TEST(PalletTracker, takes_a_persons_word) {
   ASSERT_TRUE(truck.tracker.correct(correction).ok());
   EXPECT_EQ(truck.pallet("id1").sscc, PalletTruck::sscc(3));
   EXPECT_EQ(truck.pallet("id1").T_map_pallet.translation().x(), 2);
+  PalletCorrection type;
+  type.stamp = truck.now;
+  type.id = "id1";
+  type.type = "epal";
+  ASSERT_TRUE(truck.tracker.correct(type).ok());
+  EXPECT_EQ(truck.pallet("id1").type, "epal");
   PalletCorrection gone;
   gone.stamp = truck.now;
   gone.id = "id1";
