@@ -15,6 +15,7 @@ inline MqttParams mqtt(const std::string& client, std::vector<std::string> broke
   MqttParams params;
   params.client_id = client;
   params.brokers = std::move(brokers);
+  params.connect_timeout_s = 1;  // Paho at times notices a refused connection only then
   return params;
 }
 

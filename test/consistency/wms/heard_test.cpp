@@ -87,7 +87,7 @@ class Heard : public testing::Test {
     return WEXITSTATUS(std::system(command.c_str()));
   }
 
-  test::TemporaryFolder folder_;
+  test::TemporaryFolder folder_{test::TemporaryFolder::memory()};
   std::unique_ptr<test::Broker> broker_;
 };
 
