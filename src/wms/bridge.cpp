@@ -30,6 +30,7 @@ void Bridge::open() {
   store_.reset();
   OpenedStore opened = open_store(params_.store, random_uuid());
   store_ = std::move(opened.store);
+  last_heard_ = store_->last_heard();
   outbox_ = Outbox(params_.outbox, store_->stream(), store_->acknowledged(), store_->last());
   if (opened.set_aside.empty()) return;
   set_aside_ = opened.set_aside;
@@ -54,6 +55,7 @@ void Bridge::with_store(const ClockReading& now, Job job) {
 }
 
 void Bridge::take(PalletChange change, const ClockReading& now) {
+  last_heard_ = change.sequence;
   if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
   if (!change.pallet.sscc.empty() && !is_sscc(change.pallet.sscc)) {
     drops_.add(BridgeDrop::kLabel);

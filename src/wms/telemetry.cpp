@@ -3,7 +3,7 @@
 namespace lodestar {
 namespace {
 
-constexpr Duration kPoseStale = std::chrono::seconds(2);
+constexpr Duration kPoseStale = std::chrono::seconds(2), kBatteryStale = std::chrono::minutes(1);
 constexpr Duration kJudgeMotion = std::chrono::milliseconds(300);
 constexpr double kDriving_m_s = 0.05;
 
@@ -35,16 +35,23 @@ void Telemetry::take_loads(std::vector<Pallet> on_fork) {
   truck_.loads = std::move(on_fork);
 }
 
+void Telemetry::take_battery(const Battery& battery, Instant now) {
+  changed_ |= !truck_.battery || truck_.battery->charging != battery.charging;
+  truck_.battery = battery;
+  battery_heard_ = now;
+}
+
 void Telemetry::set_outbox_full(bool full) {
   changed_ |= full != truck_.outbox_full;
   truck_.outbox_full = full;
 }
 
-/// A pose that nobody renews is not trusted, whatever was said of it.
+/// A pose that nobody renews is not trusted, whatever was said of it; a charge is then not known.
 void Telemetry::refresh(Instant now) {
   const bool localized = trusted_ && truck_.pose && now - pose_heard_ < kPoseStale;
   changed_ |= localized != truck_.localized;
   truck_.localized = localized;
+  if (now - battery_heard_ >= kBatteryStale) truck_.battery.reset();
 }
 
 std::vector<MqttMessage> Telemetry::at_connect(const ClockReading& now) {

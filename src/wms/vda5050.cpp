@@ -63,6 +63,20 @@ json errors(const TruckState& truck) {
   return out;
 }
 
+json battery(const std::optional<Battery>& known) {
+  if (!known) return {{"batteryCharge", 0.0}, {"charging", false}};
+  json out = {{"batteryCharge", 100 * known->charge}, {"charging", known->charging}};
+  if (known->voltage_v) out["batteryVoltage"] = *known->voltage_v;
+  return out;
+}
+
+/// The schema requires values even for what nobody measures.
+json filling(const char* field) {
+  return {{"infoType", "notMeasured"},
+          {"infoLevel", "INFO"},
+          {"infoDescription", std::string(field) + " is a filling: it is not known here"}};
+}
+
 }  // namespace
 
 std::string Vda5050::topic(const std::string& name) const {
@@ -87,14 +101,12 @@ MqttMessage Vda5050::state(const TruckState& truck, Stamp now) {
                   {"actionStates", json::array()},
                   {"driving", truck.driving},
                   {"operatingMode", "MANUAL"},
-                  {"batteryState", {{"batteryCharge", 0.0}, {"charging", false}}},
+                  {"batteryState", battery(truck.battery)},
                   {"safetyState", {{"eStop", "NONE"}, {"fieldViolation", false}}},
                   {"errors", errors(truck)},
-                  {"loads", json::array()}});
-  message["information"] = {
-      {{"infoType", "notMeasured"},
-       {"infoLevel", "INFO"},
-       {"infoDescription", "batteryState and safetyState are fillings: the localization does not know them"}}};
+                  {"loads", json::array()},
+                  {"information", json::array({filling("safetyState")})}});
+  if (!truck.battery) message["information"].push_back(filling("batteryState"));
   for (const Pallet& pallet : truck.loads) message["loads"].push_back(load(pallet));
   if (truck.pose) message["agvPosition"] = position(params_, truck);
   return {topic("state"), text_of(message), 0, false};

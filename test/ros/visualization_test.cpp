@@ -5,6 +5,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "lodestar/BeaconSightingArray.h"
+#include "lodestar/PalletArray.h"
 #include "lodestar/ros/convert/message_drop.hpp"
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
@@ -83,6 +84,52 @@ TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
   const std::size_t before = truck.size();
   player.play(1.0);
   EXPECT_TRUE(wait_for([&] { return truck.size() > before; }));
+}
+
+const visualization_msgs::Marker* named(const visualization_msgs::MarkerArray& array, const std::string& ns,
+                                        const std::string& text) {
+  for (const auto& marker : array.markers)
+    if (marker.ns == ns && marker.text.find(text) != std::string::npos) return &marker;
+  return nullptr;
+}
+
+TEST(Visualization, DrawsPalletsWithIdsAndAges) {
+  ros::NodeHandle nh;
+  Inbox<visualization_msgs::MarkerArray> markers(nh, "/visualization/pallets");
+  ros::Publisher state = nh.advertise<PalletArray>("/pallets/state", 1, true);
+  PalletArray pallets;
+  const auto add = [&](const std::string& id, const std::string& sscc, std::uint8_t what, double x) {
+    PalletEntry entry;
+    entry.id = id;
+    entry.sscc = sscc;
+    entry.type = "epal";
+    entry.state = what;
+    entry.changed = ros::Time::now() - ros::Duration(120);
+    entry.pose.pose.position.x = x;
+    entry.pose.pose.orientation.w = 1;
+    pallets.pallets.push_back(entry);
+  };
+  add("aaaaaaaa-1", "106141412345678908", PalletEntry::STANDING, 3);
+  add("bbbbbbbb-2", "", PalletEntry::UNCERTAIN, 5);
+  add("cccccccc-3", "", PalletEntry::GONE, 7);
+  state.publish(pallets);
+  ASSERT_TRUE(wait_for([&] { return !markers.empty() && added(markers.last(), "pallets") == 2; }));
+  EXPECT_EQ(added(markers.last(), "goods"), 2);
+  const auto* read = named(markers.last(), "pallet ids", "...8908\n2 min");
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(read->pose.position.x, 3);
+  const auto* unread = named(markers.last(), "pallet ids", "bbbbbb ?\n2 min");
+  ASSERT_NE(unread, nullptr);
+  EXPECT_EQ(unread->pose.position.x, 5);
+  for (const auto& marker : markers.last().markers) {
+    if (marker.ns != "pallets") continue;
+    EXPECT_EQ(marker.scale.x, 1.2);
+    EXPECT_EQ(marker.scale.y, 0.8);
+    EXPECT_NEAR(marker.pose.position.z, 0.5 * marker.scale.z, 1e-9) << "stands on the floor";
+  }
+  pallets.pallets.clear();
+  state.publish(pallets);
+  EXPECT_TRUE(wait_for([&] { return added(markers.last(), "pallets") == 0; }));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The bridge as a node: from /pallets/events to a site over a broker of the test's own.
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
+#include <sensor_msgs/BatteryState.h>
 #include <signal.h>
 #include <sys/wait.h>
 
@@ -8,12 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "lodestar/LoadState.h"
 #include "lodestar/PalletArray.h"
 #include "lodestar/PalletEvent.h"
 #include "lodestar/PoseIntegrity.h"
 #include "lodestar/ros/convert/message_drop.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/nodelets/wms_params.hpp"
 #include "lodestar/wms/bridge.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
@@ -37,11 +40,15 @@ const char* const kNode = "wms_bridge";
 
 class Node {
  public:
-  explicit Node(const std::string& log) : log_(log) {
+  /// @param preloaded library that is loaded before the program's own; empty: none
+  explicit Node(const std::string& log, const std::string& name = kNode, const std::string& preloaded = "")
+      : log_(log) {
     process_ = fork();
     if (process_ != 0) return;
     if (std::freopen(log.c_str(), "w", stdout) == nullptr || dup2(1, 2) < 0) _exit(127);
-    execl(LODESTAR_PROGRAM_DIR "/wms_bridge_node", "wms_bridge_node", "__name:=wms_bridge", nullptr);
+    if (!preloaded.empty()) setenv("LD_PRELOAD", preloaded.c_str(), 1);
+    const std::string program = std::string(LODESTAR_PROGRAM_DIR) + "/" + name + "_node";
+    execl(program.c_str(), program.c_str(), ("__name:=" + name).c_str(), nullptr);
     _exit(127);
   }
   ~Node() { end(SIGKILL); }
@@ -103,17 +110,19 @@ class WmsBridge : public testing::Test {
     set("state_period_s", 0.2);
   }
 
-  bool until(const std::function<bool()>& condition) {
-    return wait_for([&] {
-      site_->poll(test::clocks().monotonic);
-      for (const LinkEvent& event : vda_->take()) {
-        if (std::holds_alternative<LinkUp>(event)) vda_->subscribe("uagv/v2/lodestar/truck7/#", 0);
-        if (std::holds_alternative<LinkDown>(event)) vda_->connect(0, {});
-        if (const auto* message = std::get_if<MqttMessage>(&event))
-          vda_heard_[message->topic.substr(message->topic.rfind('/') + 1)] = json::parse(message->payload);
-      }
-      return condition();
-    });
+  bool until(const std::function<bool()>& condition, double limit_s = 40) {
+    return wait_for(
+        [&] {
+          site_->poll(test::clocks().monotonic);
+          for (const LinkEvent& event : vda_->take()) {
+            if (std::holds_alternative<LinkUp>(event)) vda_->subscribe("uagv/v2/lodestar/truck7/#", 0);
+            if (std::holds_alternative<LinkDown>(event)) vda_->connect(0, {});
+            if (const auto* message = std::get_if<MqttMessage>(&event))
+              vda_heard_[message->topic.substr(message->topic.rfind('/') + 1)] = json::parse(message->payload);
+          }
+          return condition();
+        },
+        limit_s);
   }
   bool counted(const std::string& key, long at_least) {
     return until([&] { return diagnostics_.count(kNode, key) >= at_least; });
@@ -133,6 +142,7 @@ class WmsBridge : public testing::Test {
   ros::Publisher events_ = nh_.advertise<PalletEvent>("/pallets/events", 1000);
   ros::Publisher state_ = nh_.advertise<PalletArray>("/pallets/state", 1, true);
   ros::Publisher pose_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/pose", 1);
+  ros::Publisher battery_ = nh_.advertise<sensor_msgs::BatteryState>("/battery", 1, true);
   ros::Publisher integrity_ = nh_.advertise<PoseIntegrity>("/pose/integrity", 1);
   std::unique_ptr<test::Broker> broker_;
   std::unique_ptr<MqttLink> link_, vda_;
@@ -176,6 +186,78 @@ TEST_F(WmsBridge, EveryEventArrivesOnceWhateverDies) {
   EXPECT_TRUE(until([&] { return vda_heard_["connection"].value("connectionState", "") == "OFFLINE"; }));
 }
 
+/// The truck's own pallet tracking beside the bridge.
+class Tracking {
+ public:
+  Tracking(ros::NodeHandle& nh, const test::TemporaryFolder& folder) : log_(folder / "tracking.log") {
+    pose_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("/pose", 100);
+    load_ = nh.advertise<LoadState>("/load", 100);
+    ros::param::del("/pallet_tracking");
+    for (const std::string key : {"site", "vehicle"})
+      ros::param::set("/pallet_tracking/" + key, ros::param::param<std::string>("/pallet_" + key, ""));
+    ros::param::set("/pallet_tracking/memory", folder / "pallets");
+  }
+
+  void start(const std::string& preloaded = "") {
+    EXPECT_TRUE(wait_for([&] { return load_.getNumSubscribers() == 0; })) << "of an earlier life";
+    node_ = std::make_unique<Node>(log_, "pallet_tracking", preloaded);
+    EXPECT_TRUE(wait_for([&] { return load_.getNumSubscribers() > 0 && pose_.getNumSubscribers() > 0; })) << log_;
+  }
+  int end(int signal) { return node_->end(signal); }
+  int join() { return node_->join(); }
+
+  /// Half a second of samples: the fork takes what is here, or lets go of it.
+  void work(bool present) {
+    for (int i = 0; i < 12; ++i) {
+      PoseEstimate pose;
+      pose.stamp = test::clocks().wall;
+      pose.covariance.diagonal().setConstant(1e-6);
+      pose_.publish(pose_estimate_message(pose, "map"));
+      LoadState load;
+      load.header.stamp = ros_time(pose.stamp);
+      load.header.frame_id = "fork";
+      load.load_present = present;
+      ros::WallDuration(0.04).sleep();  // the pose first: it comes over a connection of its own
+      load_.publish(load);
+    }
+  }
+
+ private:
+  std::string log_;
+  std::unique_ptr<Node> node_;
+  ros::Publisher pose_, load_;
+};
+
+TEST_F(WmsBridge, AnEventThatWasWrittenDownIsToldWhoeverDies) {
+  auto bridge = std::make_unique<Node>(folder_ / "node.log");
+  Tracking tracking(nh_, folder_);
+  tracking.start();
+  tracking.work(false);
+  tracking.work(true);
+  expect_arrived(1);
+
+  // Killed after the drop was written down, before it was told.
+  tracking.end(SIGKILL);
+  tracking.start(LODESTAR_DIE_AFTER_RENAME);
+  tracking.work(true);
+  tracking.work(false);
+  const int status = tracking.join();
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  EXPECT_FALSE(until([&] { return arrived_.size() > 1; }, 1)) << "it was told after all";
+  tracking.start();
+  expect_arrived(2);
+  EXPECT_EQ(arrived_[1]["epcisBody"]["eventList"][0]["action"], "DELETE");
+
+  // Told while there was no bridge.
+  bridge->end(SIGKILL);
+  tracking.work(false);
+  tracking.work(true);
+  tracking.work(false);
+  bridge = std::make_unique<Node>(folder_ / "node.log");
+  expect_arrived(4);
+  EXPECT_EQ(diagnostics_.count(kNode, "missed"), 0);
+}
+
 TEST_F(WmsBridge, TellsTheTrucksState) {
   Node node(folder_ / "node.log");
   ASSERT_TRUE(until([&] { return pose_.getNumSubscribers() > 0 && integrity_.getNumSubscribers() > 0; }));
@@ -183,6 +265,9 @@ TEST_F(WmsBridge, TellsTheTrucksState) {
   pallets.header.frame_id = "map";
   for (const int n : {1, 4}) pallets.pallets.push_back(pallet_message(change(n).pallet));
   state_.publish(pallets);
+  sensor_msgs::BatteryState charge;
+  charge.percentage = 0.5F;
+  battery_.publish(charge);
   PoseIntegrity integrity;
   integrity.mode = PoseIntegrity::TRACKING;
   integrity.protection_level_m = 0.25;
@@ -201,6 +286,7 @@ TEST_F(WmsBridge, TellsTheTrucksState) {
   EXPECT_EQ(state["agvPosition"]["localizationScore"], 0.5);
   ASSERT_EQ(state["loads"].size(), 1u);
   EXPECT_EQ(state["loads"][0]["loadId"], "106141412345678908");
+  EXPECT_TRUE(until([&] { return vda_heard_["state"]["batteryState"]["batteryCharge"] == 50.0; }));
   EXPECT_EQ(vda_heard_["connection"]["connectionState"], "ONLINE");
   EXPECT_EQ(vda_heard_["factsheet"]["version"], "2.1.0");
   EXPECT_TRUE(until([&] { return vda_heard_.count("visualization") > 0; }));

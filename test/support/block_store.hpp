@@ -10,6 +10,7 @@
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
+#include "support/pallet_tally.hpp"
 
 namespace lodestar::test {
 
@@ -34,16 +35,6 @@ inline Matrix6 usual_covariance() {
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-struct BlockStoreTally {
-  int moves = 0, identified = 0, wrong = 0, asked = 0, stacks = 0, unread = 0;
-  double error_sum_m = 0, yaw_error_sum_rad = 0, error_max_m = 0;
-  int set_down = 0;
-  double nees_sum = 0;  ///< of x, y, z, yaw
-  double mean_error_m() const { return error_sum_m / set_down; }
-  double mean_yaw_error_rad() const { return yaw_error_sum_rad / set_down; }
-  double mean_nees() const { return nees_sum / set_down; }
-};
-
 class BlockStore {
  public:
   BlockStore(const BlockStoreParams& params, unsigned seed)
@@ -54,7 +45,7 @@ class BlockStore {
     tell_load(0, false, "");
   }
 
-  BlockStoreTally run(int moves) {
+  PalletTally run(int moves) {
     while (tally_.moves < moves) move();
     return tally_;
   }
@@ -196,11 +187,7 @@ class BlockStore {
     const PalletChange* change = tracker_.pallets().find(truth.id);
     if (change == nullptr) return;
     const PoseDifference error = difference({truth.T_map_pallet, Matrix6::Zero()}, pose_of(change->pallet));
-    ++tally_.set_down;
-    tally_.error_sum_m += error.value.head<2>().norm();
-    tally_.error_max_m = std::max(tally_.error_max_m, error.value.head<2>().norm());
-    tally_.yaw_error_sum_rad += std::abs(error.value[3]);
-    tally_.nees_sum += error.distance2();
+    tally_.add(error);
   }
 
   /// The truck stands with its fork here, which takes or leaves its load; the sensors tell.
@@ -251,7 +238,7 @@ class BlockStore {
   std::vector<Truth> truths_;
   std::map<std::string, bool> known_;
   Stamp now_{std::chrono::seconds(1000)};
-  BlockStoreTally tally_;
+  PalletTally tally_;
 };
 
 }  // namespace lodestar::test

@@ -7,6 +7,7 @@
 #include "lodestar/wms/bridge.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
 #include "support/bridge_params.hpp"
+#include "support/bridge_process.hpp"
 #include "support/pallet_changes.hpp"
 #include "support/real_time.hpp"
 
@@ -15,11 +16,9 @@ int main(int argc, char** argv) {
   if (argc < 4) return EXIT_FAILURE;
   BridgeParams params = test::bridge_params(argv[1]);
   const auto events = static_cast<std::uint64_t>(std::atoll(argv[2]));
-  MqttParams mqtt;
-  mqtt.brokers.assign(argv + 3, argv + argc);
-  mqtt.client_id = "truck7";
-  params.brokers = mqtt.brokers.size();
-  MqttLink link(mqtt);
+  const std::vector<std::string> brokers(argv + 3, argv + argc);
+  params.brokers = brokers.size();
+  MqttLink link(test::mqtt("truck7", brokers));
   Bridge bridge(params, link, test::clocks());
   for (;;) {
     for (int i = 0; i < 20 && bridge.store().last_heard() < events; ++i)

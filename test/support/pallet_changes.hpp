@@ -35,4 +35,32 @@ inline PalletChange change(std::uint64_t n) {
   return change;
 }
 
+/// Of what change(2) told.
+inline PalletChange correction(PalletState state) {
+  PalletChange out = change(3);
+  out.kind = PalletChangeKind::kCorrection;
+  out.pallet = change(2).pallet;
+  out.pallet.state = state;
+  out.pallet.zone = "A-2";
+  out.reason = "stood one place further";
+  out.corrects = 2;
+  return out;
+}
+
+inline PalletChange uncertain() {
+  PalletChange out = change(6);
+  out.pallet.sscc.clear();
+  out.pallet.state = PalletState::kUncertain;
+  out.candidates = {uuid(3), uuid(4)};
+  out.pallet.coasting = true;
+  return out;
+}
+
+inline PalletChange gone() {
+  PalletChange out = change(4);
+  out.pallet.state = PalletState::kGone;
+  out.pallet.zone = "DOCK-1";
+  return out;
+}
+
 }  // namespace lodestar::test

@@ -8,14 +8,9 @@
 
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
 #include "lodestar/sim/line_run.hpp"
+#include "support/pallet_tally.hpp"
 
 namespace lodestar::test {
-
-struct PalletLineTally {
-  int picked = 0, wrong = 0, asked = 0, unread = 0, set_down = 0;
-  double error_sum_m = 0, error_max_m = 0, yaw_error_sum_rad = 0, nees_sum = 0;
-  std::vector<Matrix6> covariances;  ///< of the truck's pose when something was set down
-};
 
 /// A whole simulated line, from images to pallets, against the pallets' truth.
 class PalletLineRun {
@@ -25,7 +20,7 @@ class PalletLineRun {
     tracker_.set_fork(scenario.T_base_fork);
   }
 
-  PalletLineTally run() {
+  PalletTally run() {
     sim::Simulation simulation(scenario_);
     LocalizationLine line = sim::make_line(scenario_);
     while (const auto event = simulation.next()) {
@@ -38,6 +33,8 @@ class PalletLineRun {
     }
     return tally_;
   }
+  /// Of the truck's pose whenever something was set down.
+  const std::vector<Matrix6>& covariances() const { return covariances_; }
 
  private:
   static PalletTrackerParams tracker_params(const sim::Scenario& scenario) {
@@ -63,13 +60,11 @@ class PalletLineRun {
   }
 
   void judge(const PalletChange& change, const std::string& sscc) {
-    ++tally_.picked;
-    const bool in_doubt = change.pallet.state == PalletState::kUncertain;
-    if (in_doubt) ++tally_.asked;
     if (change.pallet.sscc.empty()) ++tally_.unread;
     const auto known = sscc_of_.find(change.pallet.id);
     const bool right = known == sscc_of_.end() ? met_.count(sscc) == 0 : known->second == sscc;
-    if (!right && !in_doubt) ++tally_.wrong;
+    const bool in_doubt = change.pallet.state == PalletState::kUncertain;
+    ++(in_doubt ? tally_.asked : right ? tally_.identified : tally_.wrong);
     sscc_of_[change.pallet.id] = sscc;
     met_.insert(sscc);
   }
@@ -77,13 +72,8 @@ class PalletLineRun {
   void measure(const PalletChange& change) {
     for (const Pallet& pallet : truth_) {
       if (pallet.sscc != sscc_of_[change.pallet.id]) continue;
-      const PoseDifference error = difference({pallet.T_map_pallet, Matrix6::Zero()}, pose_of(change.pallet));
-      ++tally_.set_down;
-      tally_.error_sum_m += error.value.head<2>().norm();
-      tally_.error_max_m = std::max(tally_.error_max_m, error.value.head<2>().norm());
-      tally_.yaw_error_sum_rad += std::abs(error.value[3]);
-      tally_.nees_sum += error.distance2();
-      tally_.covariances.push_back(pose_.covariance);
+      tally_.add(difference({pallet.T_map_pallet, Matrix6::Zero()}, pose_of(change.pallet)));
+      covariances_.push_back(pose_.covariance);
     }
   }
 
@@ -94,7 +84,8 @@ class PalletLineRun {
   std::vector<Pallet> truth_;
   std::map<std::string, std::string> sscc_of_;
   std::set<std::string> met_;
-  PalletLineTally tally_;
+  PalletTally tally_;
+  std::vector<Matrix6> covariances_;
 };
 
 }  // namespace lodestar::test

@@ -18,6 +18,7 @@ class Telemetry {
   /// @param trusted the pose may be used for what it is
   void take_integrity(bool trusted, double protection_level_m);
   void take_loads(std::vector<Pallet> on_fork);
+  void take_battery(const Battery& battery, Instant now);
   void set_outbox_full(bool full);
 
   /// What the broker shall say when the link breaks.
@@ -34,7 +35,7 @@ class Telemetry {
   TruckState truck_;
   bool trusted_ = false, changed_ = false;
   std::optional<PoseEstimate> moved_from_;  ///< against which driving is judged
-  Instant pose_heard_{};
+  Instant pose_heard_{}, battery_heard_{};
   std::optional<Instant> state_sent_, visualization_sent_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lodestar/base/measurement/battery.hpp"
 #include "lodestar/base/measurement/pallet.hpp"
 #include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/wms/message_link.hpp"
@@ -39,13 +40,15 @@ struct TruckState {
   bool driving = false;
   std::vector<Pallet> loads;  ///< on the fork
   bool outbox_full = false;
+  std::optional<Battery> battery;  ///< empty: not known
 };
 
 enum class VdaConnection { kOnline, kOffline, kBroken };
 
 /// The messages of VDA 5050 (interface for AGV communication, 2.1.0, section 6) that a truck with a driver can send: it
-/// takes no orders, so order, nodes and edges are empty and operatingMode is MANUAL. Battery, brakes and safety fields
-/// belong to the truck's own controller: `information` says that nothing is known of them here.
+/// takes no orders, so order, nodes and edges are empty and operatingMode is MANUAL. Emergency stop and protective
+/// fields belong to the truck's safety controller, which nothing here speaks to; they and a battery that is not known
+/// are fillings that the schema requires, and `information` says so.
 class Vda5050 {
  public:
   explicit Vda5050(const VdaParams& params) : params_(params) {}

@@ -40,6 +40,7 @@ std::string line(const Zone& zone) {
                     ", kind: " + (zone.kind == ZoneKind::kDock ? "dock" : "storage") + ", polygon_m: [" + polygon +
                     "], z_m: " + list({zone.bottom_m, zone.top_m});
   if (!zone.levels_m.empty()) out += ", levels_m: " + list(zone.levels_m);
+  if (!zone.pallet_type.empty()) out += ", pallet: " + in_quotes(zone.pallet_type);
   if (const auto& grid = zone.grid)
     out += ", places: {first_m: " + list({grid->first_m.x(), grid->first_m.y()}) +
            ", pitch_m: " + list({grid->pitch_m.x(), grid->pitch_m.y()}) +

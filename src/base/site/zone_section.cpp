@@ -8,8 +8,8 @@
 namespace lodestar {
 namespace {
 
-const std::vector<YamlKey> kZoneKeys = {{"code", true}, {"kind", true},      {"polygon_m", true},
-                                        {"z_m", false}, {"levels_m", false}, {"places", false}};
+const std::vector<YamlKey> kZoneKeys = {{"code", true},      {"kind", true},    {"polygon_m", true}, {"z_m", false},
+                                        {"levels_m", false}, {"places", false}, {"pallet", false}};
 const std::vector<YamlKey> kPlaceKeys = {
     {"first_m", true}, {"pitch_m", true}, {"columns", true}, {"rows", true}, {"yaw_deg", false}};
 const Limits kCoordinate = within(-10000, 10000);
@@ -95,6 +95,7 @@ ZoneDraft read_zone(const YamlMap& map) {
   read_kind(map, draft.zone);
   read_polygon(map, draft.zone);
   read_heights(map, draft.zone);
+  draft.zone.pallet_type = map.text("pallet").value_or("");
   if (map.has("places")) read_places(map.section("places", kPlaceKeys), draft.zone);
   return draft;
 }

@@ -1,10 +1,15 @@
 #include "lodestar/estimation/pallet/pallet_ledger.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace lodestar {
 namespace {
+
+constexpr std::size_t kNewest = 500;
+
+bool earlier(const PalletChange& a, const PalletChange& b) { return a.sequence < b.sequence; }
 
 bool lists(const PalletChange& change, const std::string& id) {
   return std::find(change.candidates.begin(), change.candidates.end(), id) != change.candidates.end();
@@ -12,17 +17,41 @@ bool lists(const PalletChange& change, const std::string& id) {
 
 }  // namespace
 
-void PalletLedger::restore(const Changes& latest) {
-  for (const PalletChange& change : latest) map_.set(change);
-  sequence_ = map_.last_sequence();
+void PalletLedger::restore(Changes kept) {
+  std::sort(kept.begin(), kept.end(), earlier);
+  for (PalletChange& change : kept) enter(std::move(change));
+}
+
+void PalletLedger::enter(PalletChange change) {
+  if (change.sequence != sequence_ + 1) newest_.clear();
+  sequence_ = change.sequence;
+  map_.set(change);
+  newest_.push_back(std::move(change));
+  if (newest_.size() > kNewest) newest_.pop_front();
+}
+
+PalletLedger::Changes PalletLedger::kept() const {
+  Changes out;
+  for (const auto& [id, change] : map_.all())
+    if (newest_.empty() || change.sequence < newest_.front().sequence) out.push_back(change);
+  std::sort(out.begin(), out.end(), earlier);
+  out.insert(out.end(), newest_.begin(), newest_.end());
+  return out;
+}
+
+PalletLedger::Changes PalletLedger::after(std::uint64_t sequence) const {
+  Changes out;
+  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(out),
+               [&](const PalletChange& change) { return change.sequence > sequence; });
+  return out;
 }
 
 PalletLedger::Changes PalletLedger::take() { return std::exchange(changes_, {}); }
 
 void PalletLedger::write(PalletChange change) {
-  change.sequence = ++sequence_;
-  map_.set(change);
-  changes_.push_back(std::move(change));
+  change.sequence = sequence_ + 1;
+  changes_.push_back(change);
+  enter(std::move(change));
 }
 
 void PalletLedger::write(PalletChangeKind kind, const Pallet& pallet, Stamp stamp,
@@ -114,8 +143,7 @@ void PalletLedger::strike(const std::string& id, Stamp stamp, const std::string&
 void PalletLedger::forget_gone(Stamp before) {
   std::vector<std::string> old;
   for (const auto& [id, change] : map_.all())
-    if (change.pallet.state == PalletState::kGone && change.stamp < before && change.sequence != sequence_)
-      old.push_back(id);
+    if (change.pallet.state == PalletState::kGone && change.stamp < before) old.push_back(id);
   for (const std::string& id : old) map_.erase(id);
 }
 

@@ -33,12 +33,6 @@ const PalletChange* PalletMap::with_sscc(const std::string& sscc) const {
   return nullptr;
 }
 
-std::uint64_t PalletMap::last_sequence() const {
-  std::uint64_t last = 0;
-  for (const auto& [id, change] : latest_) last = std::max(last, change.sequence);
-  return last;
-}
-
 const PalletSize* PalletMap::find_size(const std::string& type) const {
   const auto found =
       std::find_if(sizes_.begin(), sizes_.end(), [&](const PalletSize& size) { return size.type == type; });

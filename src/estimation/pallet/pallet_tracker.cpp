@@ -52,8 +52,8 @@ PalletTracker::PalletTracker(const PalletTrackerParams& params, std::function<st
       load_(params.load),
       poses_(params.pose_kept_s, params.pose_age_max_s) {}
 
-void PalletTracker::restore(const Changes& latest, const std::vector<CarriedPallet>& carried) {
-  ledger_.restore(latest);
+void PalletTracker::restore(const Changes& kept, const std::vector<CarriedPallet>& carried) {
+  ledger_.restore(kept);
   carry(carried);
   load_ = LoadWatch(params_.load, !carried.empty());
 }
@@ -161,6 +161,15 @@ Association PalletTracker::identify(const std::string& label, const std::optiona
   return out;
 }
 
+/// What a pallet that nobody has met before is taken for.
+std::string PalletTracker::new_type(const std::optional<Moment>& at) const {
+  const PalletSize& first = params_.sizes.front();
+  if (!at) return first.type;
+  const PalletPose taken = pallet_on(at->fork, nominal_seat(first, 0, params_.sigmas));
+  const Zone* zone = zone_at(params_.zones, taken.T_map_pallet.translation());
+  return pallets().size(zone == nullptr ? "" : zone->pallet_type).type;
+}
+
 /// @param known that a pallet of this id was met before
 Seat PalletTracker::seat_of(const Pallet& pallet, bool known, const std::optional<Moment>& at) const {
   const PalletSize& size = pallets().size(pallet.type);
@@ -184,7 +193,7 @@ void PalletTracker::pick(const LoadChange& change) {
     candidates = pallets().find(pallet.id)->candidates;
   } else {
     pallet.id = new_id_();
-    pallet.type = params_.sizes.front().type;
+    pallet.type = new_type(at);
   }
   if (!label.empty()) pallet.sscc = label;
   const CarriedPallet carried{pallet.id, seat_of(pallet, identity.pallet != nullptr, at)};

@@ -1,8 +1,6 @@
 #include "lodestar/ros/nodelets/pallet_file.hpp"
 
-#include <fcntl.h>
 #include <ros/serialization.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "lodestar/PalletMemory.h"
+#include "lodestar/base/common/replace_file.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/transform.hpp"
 
@@ -67,35 +66,21 @@ std::optional<PalletMemory> unpacked(std::string text) {
 }
 
 bool restore(PalletTracker& tracker, const PalletMemory& memory, const std::string& map_frame) {
-  PalletTracker::Changes latest;
+  PalletTracker::Changes kept;
   for (const PalletEvent& event : memory.events) {
     const auto change = pallet_change_from(event, map_frame);
     if (!change) return false;
-    latest.push_back(*change);
+    kept.push_back(*change);
   }
   std::vector<CarriedPallet> carried;
   for (std::size_t i = 0; i < memory.seats.size(); ++i) {
     const auto seat = seat_from(memory.seats[i]);
     const auto is_it = [&](const PalletChange& change) { return change.pallet.id == memory.carried[i]; };
-    if (!seat || std::none_of(latest.begin(), latest.end(), is_it)) return false;
+    if (!seat || std::none_of(kept.begin(), kept.end(), is_it)) return false;
     carried.push_back({memory.carried[i], *seat});
   }
-  tracker.restore(latest, carried);
+  tracker.restore(kept, carried);
   return true;
-}
-
-/// False, with errno, where it could not be written to the disk's last layer.
-bool write_through(const std::string& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return false;
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t wrote = ::write(file, text.data() + done, text.size() - done);
-    if (wrote < 0 && errno != EINTR) break;
-    if (wrote > 0) done += static_cast<std::size_t>(wrote);
-  }
-  const bool good = done == text.size() && ::fsync(file) == 0;
-  return ::close(file) == 0 && good;
 }
 
 }  // namespace
@@ -114,16 +99,14 @@ void PalletFile::load_into(PalletTracker& tracker) {
 void PalletFile::save(const PalletTracker& tracker) {
   if (path_.empty()) return;
   PalletMemory memory;
-  for (const auto& [id, change] : tracker.pallets().all())
+  for (const PalletChange& change : tracker.ledger().kept())
     memory.events.push_back(pallet_event_message(change, map_frame_));
   for (const CarriedPallet& carried : tracker.carried()) {
     memory.carried.push_back(carried.id);
     memory.seats.push_back(seat_message(carried.seat));
   }
-  const std::string beside = path_ + ".new";
   fault_.clear();
-  if (!write_through(beside, packed(memory)) || ::rename(beside.c_str(), path_.c_str()) != 0)
-    fault_ = path_ + " cannot be written: " + std::strerror(errno);
+  if (!replace_file(path_, packed(memory))) fault_ = path_ + " cannot be written: " + std::strerror(errno);
 }
 
 }  // namespace lodestar

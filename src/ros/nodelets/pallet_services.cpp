@@ -56,13 +56,14 @@ std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& re
 
 }  // namespace
 
-PalletServices::PalletServices(ros::NodeHandle& nh, PalletTracker& tracker, const std::vector<Zone>& zones,
+PalletServices::PalletServices(ros::NodeHandle& nh, PalletTracker& tracker, const Site& site,
                                std::function<void(const PalletTracker::Changes&)> on_change)
-    : tracker_(tracker), zones_(zones), on_change_(std::move(on_change)) {
+    : tracker_(tracker), site_(site), on_change_(std::move(on_change)) {
   servers_ = {nh.advertiseService("pallets/get", &PalletServices::get, this),
               nh.advertiseService("pallets/find", &PalletServices::find, this),
               nh.advertiseService("pallets/correct", &PalletServices::correct, this),
-              nh.advertiseService("pallets/free_places", &PalletServices::free, this)};
+              nh.advertiseService("pallets/free_places", &PalletServices::free, this),
+              nh.advertiseService("pallets/events_after", &PalletServices::events_after, this)};
 }
 
 bool PalletServices::get(GetPallet::Request& request, GetPallet::Response& response) {
@@ -74,7 +75,7 @@ bool PalletServices::get(GetPallet::Request& request, GetPallet::Response& respo
     if (pallet.id == last->pallet.id) response.pallet = pallet_message(pallet);
   const bool here = last->pallet.state == PalletState::kStanding || last->pallet.state == PalletState::kUncertain;
   if (here && !last->pallet.zone.empty())
-    response.place = storage_code(zones_, last->pallet.T_map_pallet.translation());
+    response.place = storage_code(site_.zones, last->pallet.T_map_pallet.translation());
   response.candidates = last->candidates;
   response.sequence = last->sequence;
   return true;
@@ -108,7 +109,7 @@ bool PalletServices::correct(CorrectPallet::Request& request, CorrectPallet::Res
 }
 
 bool PalletServices::free(FreePlaces::Request& request, FreePlaces::Response& response) {
-  const Zone* zone = find_zone(zones_, request.zone);
+  const Zone* zone = find_zone(site_.zones, request.zone);
   const PalletMap& map = tracker_.pallets();
   response.success = false;
   if (zone == nullptr) {
@@ -119,7 +120,8 @@ bool PalletServices::free(FreePlaces::Request& request, FreePlaces::Response& re
     response.message = name(CorrectionFault::kType);
   } else {
     response.success = true;
-    for (const Place& place : free_places(*zone, map.size(request.type), map)) {
+    for (const Place& place :
+         free_places(*zone, map.size(request.type.empty() ? zone->pallet_type : request.type), map)) {
       RigidTransform T_map_pallet = RigidTransform::Identity();
       T_map_pallet.translation() = place.position_map;
       T_map_pallet.linear() = rotation({0, 0, place.yaw_rad});
@@ -127,6 +129,12 @@ bool PalletServices::free(FreePlaces::Request& request, FreePlaces::Response& re
       response.poses.push_back(pose_message(T_map_pallet));
     }
   }
+  return true;
+}
+
+bool PalletServices::events_after(PalletEventsAfter::Request& request, PalletEventsAfter::Response& response) {
+  for (const PalletChange& change : tracker_.ledger().after(request.sequence))
+    response.events.push_back(pallet_event_message(change, site_.frame_id));
   return true;
 }
 

@@ -31,7 +31,7 @@ void PalletTrackingNodelet::onInit() {
   health.add_report([this](Health::Status& status) { report(status); });
   events_ = nh.advertise<PalletEvent>("pallets/events", 1000);
   state_ = nh.advertise<PalletArray>("pallets/state", 2, true);
-  services_ = std::make_unique<PalletServices>(nh, *tracker_, edge_->site().zones,
+  services_ = std::make_unique<PalletServices>(nh, *tracker_, edge_->site(),
                                                [this](const PalletTracker::Changes& changes) { tell(changes); });
   tell_state();
   pose_ = nh.subscribe("pose", 50, &PalletTrackingNodelet::take_pose, this);
@@ -46,6 +46,12 @@ void PalletTrackingNodelet::make_tracker() {
   PalletTrackerParams params;
   params.sizes = vehicle.pallets;
   params.zones = edge_->site().zones;
+  Faults faults;
+  for (const Zone& zone : params.zones)
+    if (!zone.pallet_type.empty() && PalletMap(params.sizes).find_size(zone.pallet_type) == nullptr)
+      faults.push_back(
+          {"site", 0, "zone " + zone.code + ": the vehicle file has no pallet '" + zone.pallet_type + "'"});
+  refuse_faults(faults);
   params.sigmas = {vehicle.fork_height_sigma_m, vehicle.seat_sigma_m, vehicle.seat_sigma_rad};
   tracker_ = std::make_unique<PalletTracker>(params, [] {
     static boost::uuids::random_generator generator;
@@ -88,7 +94,9 @@ void PalletTrackingNodelet::tell(const PalletTracker::Changes& changes) {
 }
 
 void PalletTrackingNodelet::tell_state() {
-  state_.publish(pallet_array_message(tracker_->now(), newest_, edge_->map_frame()));
+  PalletArray message = pallet_array_message(tracker_->now(), newest_, edge_->map_frame());
+  message.last_event = tracker_->ledger().last();
+  state_.publish(message);
   told_ = newest_;
 }
 
@@ -103,7 +111,7 @@ void PalletTrackingNodelet::report(Health::Status& status) {
   status.add("pallets standing", standing);
   status.add("pallets in doubt", uncertain);
   status.add("pallets on the fork", tracker_->carried().size());
-  status.add("last event", pallets.last_sequence());
+  status.add("last event", tracker_->ledger().last());
   report_drops(tracker_->drops(), status);
   if (!fork_known_) status.mergeSummary(DiagnosticStatus::WARN, "no mount of " + fork_frame_ + " yet");
   if (uncertain > 0)

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "lodestar/PalletEventsAfter.h"
+#include "lodestar/ros/convert/battery.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/nodelets/wms_params.hpp"
@@ -14,6 +16,7 @@ namespace lodestar {
 namespace {
 
 constexpr double kPollPeriod_s = 0.01;
+constexpr double kCatchUpPeriod_s = 1;  // an event and the state that counts it come one after the other
 
 ClockReading clocks() {
   return {Stamp(std::chrono::system_clock::now().time_since_epoch()),
@@ -44,6 +47,11 @@ void WmsBridgeNodelet::onInit() {
   state_ = nh.subscribe("pallets/state", 1, &WmsBridgeNodelet::take_state, this);
   pose_ = nh.subscribe("pose", 10, &WmsBridgeNodelet::take_pose, this);
   integrity_ = nh.subscribe("pose/integrity", 10, &WmsBridgeNodelet::take_integrity, this);
+  battery_ = nh.subscribe("battery", 1, &WmsBridgeNodelet::take_battery, this);
+  events_after_ = nh.serviceClient<PalletEventsAfter>("pallets/events_after");
+  catch_up_ = nh.createWallTimer(ros::WallDuration(kCatchUpPeriod_s), [this](const ros::WallTimerEvent&) {
+    if (told_ > bridge_->last_heard()) ask_for_missed();
+  });
   poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s),
                              [this](const ros::WallTimerEvent&) { bridge_->poll(clocks()); });
 }
@@ -54,12 +62,28 @@ WmsBridgeNodelet::~WmsBridgeNodelet() {
 
 void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
   events_watch_->tick();
-  auto change = pallet_change_from(*message, map_frame_);
+  const bool gap = message->sequence > bridge_->last_heard() + 1;
+  if (gap) ask_for_missed();
+  if (gap && bridge_->last_heard() >= message->sequence) return;  // it was among them
+  record(*message);
+}
+
+void WmsBridgeNodelet::record(const PalletEvent& message) {
+  auto change = pallet_change_from(message, map_frame_);
   if (!change) return health_->drop(change.error());
   bridge_->take(std::move(change).value(), clocks());
 }
 
+/// What was told while nobody listened, or written down by a node that died before it told it.
+void WmsBridgeNodelet::ask_for_missed() {
+  PalletEventsAfter service;
+  service.request.sequence = bridge_->last_heard();
+  if (!events_after_.call(service)) return;  // it is not there, or is being started again
+  for (const PalletEvent& message : service.response.events) record(message);
+}
+
 void WmsBridgeNodelet::take_state(const PalletArrayConstPtr& message) {
+  told_ = message->last_event;
   std::vector<Pallet> on_fork;
   for (const PalletEntry& entry : message->pallets) {
     if (entry.state != PalletEntry::ON_FORK) continue;
@@ -80,6 +104,12 @@ void WmsBridgeNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStampedC
 void WmsBridgeNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
   const bool trusted = message->mode == PoseIntegrity::TRACKING || message->mode == PoseIntegrity::COASTING;
   bridge_->telemetry().take_integrity(trusted, message->protection_level_m);
+}
+
+void WmsBridgeNodelet::take_battery(const sensor_msgs::BatteryStateConstPtr& message) {
+  const auto battery = battery_from(*message);
+  if (!battery) return health_->drop(battery.error());
+  bridge_->telemetry().take_battery(*battery, clocks().monotonic);
 }
 
 void WmsBridgeNodelet::report(Health::Status& status) {

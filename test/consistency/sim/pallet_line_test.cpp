@@ -14,8 +14,8 @@ TEST(PalletLine, a_pallet_is_brought_where_the_line_says) {
   ASSERT_TRUE(scenario.ok()) << describe(scenario.error());
   sim::Scenario short_one = *scenario;
   short_one.duration_s = 20;
-  const test::PalletLineTally tally = test::PalletLineRun(short_one).run();
-  EXPECT_EQ(tally.picked, 1);
+  const test::PalletTally tally = test::PalletLineRun(short_one).run();
+  EXPECT_EQ(tally.identified, 1);
   EXPECT_EQ(tally.wrong + tally.asked, 0);
   ASSERT_EQ(tally.set_down, 1);
   EXPECT_LT(tally.error_max_m, 0.1);

@@ -1,9 +1,6 @@
 // Everything that is recorded reaches the site once and in order, over real brokers that are killed, by a bridge that
 // is killed.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <memory>
 #include <set>
@@ -12,6 +9,7 @@
 #include "lodestar/wms/mqtt_link.hpp"
 #include "lodestar/wms/site_client.hpp"
 #include "support/bridge_params.hpp"
+#include "support/bridge_process.hpp"
 #include "support/broker.hpp"
 #include "support/pallet_changes.hpp"
 #include "support/real_time.hpp"
@@ -21,16 +19,11 @@ namespace lodestar {
 namespace {
 
 using test::Broker;
+using test::mqtt;
 using test::run_until;
+using test::Worker;
 
 const BackOff kQuick{from_seconds(0.05), from_seconds(0.2)};
-
-MqttParams mqtt(const std::string& client, std::vector<std::string> brokers) {
-  MqttParams params;
-  params.client_id = client;
-  params.brokers = std::move(brokers);
-  return params;
-}
 
 /// A site of its own connection that remembers what it was handed.
 struct Site {
@@ -47,30 +40,6 @@ struct Site {
   SiteClient client{link, 1, kQuick, "+", "+", [this](const std::string&, const std::string& document) {
                       sequences.push_back(document_key_from(document)->sequence);
                     }};
-};
-
-class Worker {
- public:
-  Worker(const std::string& store, const std::string& events, const std::string& broker)
-      : store_(store), events_(events), broker_(broker) {
-    start();
-  }
-  ~Worker() { kill(); }
-
-  void start() {
-    process_ = fork();
-    if (process_ != 0) return;
-    execl(LODESTAR_BRIDGE_WORKER, LODESTAR_BRIDGE_WORKER, store_.c_str(), events_.c_str(), broker_.c_str(), nullptr);
-    _exit(127);
-  }
-  void kill() {
-    ::kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
-
- private:
-  std::string store_, events_, broker_;
-  pid_t process_ = -1;
 };
 
 class Delivery : public testing::Test {
@@ -165,30 +134,6 @@ TEST_F(Delivery, OneOfTwoBrokersDies) {
   EXPECT_EQ(kept.size(), 600u);
 }
 
-TEST_F(Delivery, TheBrokerTellsThatTheBridgeIsGone) {
-  Broker broker;
-  MqttLink listener(mqtt("listener", {broker.uri()}));
-  std::vector<std::string> heard;
-  bool up = false;
-  const auto listen = [&] {
-    for (const LinkEvent& event : listener.take()) {
-      if (std::holds_alternative<LinkUp>(event)) up = true, listener.subscribe("uagv/v2/+/+/connection", 1);
-      if (const auto* message = std::get_if<MqttMessage>(&event)) heard.push_back(message->payload);
-    }
-  };
-  const auto hears = [&](const char* word) {
-    return run_until([&] { return !heard.empty() && heard.back().find(word) != std::string::npos; }, listen, 20);
-  };
-  listener.connect(0, {});
-  ASSERT_TRUE(run_until([&] { return up; }, listen, 20));
-  Worker worker(store(), "1", broker.uri());
-  EXPECT_TRUE(hears("\"ONLINE\""));
-  worker.kill();
-  EXPECT_TRUE(hears("\"CONNECTIONBROKEN\""));
-  worker.start();
-  EXPECT_TRUE(hears("\"ONLINE\""));
-}
-
 /// What became of a connection.
 struct Outcome {
   bool up = false, down = false;
@@ -219,26 +164,65 @@ TEST_F(Delivery, CredentialsAreAsked) {
   params.user = "truck7";
   params.password = "wrong";
   EXPECT_TRUE(connect(params).down);
+  EXPECT_TRUE(connect(mqtt("truck7", {broker.uri()})).down) << "nobody in particular";
   params.password = "secret";
   EXPECT_TRUE(connect(params).up);
 }
 
-TEST_F(Delivery, ABrokerThatNobodyVouchesForIsRefused) {
-  if (!run("command -v openssl")) GTEST_SKIP() << "openssl, which makes the certificates, is not installed";
-  const test::TemporaryFolder folder;
-  for (const std::string name : {"broker", "stranger"})
-    ASSERT_TRUE(
+/// Brokers that speak TLS alone, each with a certificate that it signed itself.
+class Tls : public Delivery {
+ protected:
+  void SetUp() override {
+    Delivery::SetUp();
+    if (!run("command -v openssl")) GTEST_SKIP() << "openssl, which makes the certificates, is not installed";
+    ASSERT_TRUE(run("chmod 755 " + certificates_ / "."));
+  }
+  std::unique_ptr<Broker> broker(const std::string& name) {
+    EXPECT_TRUE(
         run("openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=localhost -addext "
             "subjectAltName=DNS:localhost,IP:127.0.0.1 -keyout " +
-            folder / (name + ".key") + " -out " + folder / (name + ".pem")));
-  ASSERT_TRUE(run("chmod 755 " + folder / "." + " && chmod 644 " + folder / "broker.key"));
-  Broker broker("allow_anonymous true\ncertfile " + folder / "broker.pem" + "\nkeyfile " + folder / "broker.key");
-  MqttParams params = mqtt("truck7", {"ssl://localhost:" + std::to_string(broker.port())});
-  params.ca_file = folder / "broker.pem";
-  EXPECT_TRUE(connect(params).up);
-  params.ca_file = folder / "stranger.pem";
-  EXPECT_TRUE(connect(params).down);
-  EXPECT_TRUE(connect(mqtt("truck7", {broker.uri()})).down) << "no TLS";
+            certificates_ / (name + ".key") + " -out " + certificates_ / (name + ".pem") + " && chmod 644 " +
+            certificates_ / (name + ".key")));
+    return std::make_unique<Broker>("allow_anonymous true\ncertfile " + certificates_ / (name + ".pem") + "\nkeyfile " +
+                                    certificates_ / (name + ".key"));
+  }
+  static std::string uri(const Broker& broker) { return "ssl://localhost:" + std::to_string(broker.port()); }
+  MqttParams trusting(const std::string& name, const std::string& client, std::vector<std::string> brokers) const {
+    MqttParams params = mqtt(client, std::move(brokers));
+    params.ca_file = certificates_ / (name + ".pem");
+    return params;
+  }
+
+  test::TemporaryFolder certificates_;
+};
+
+TEST_F(Tls, ABrokerThatNobodyVouchesForIsRefused) {
+  const auto known = broker("known"), stranger = broker("stranger");
+  EXPECT_TRUE(connect(trusting("known", "truck7", {uri(*known)})).up);
+  EXPECT_TRUE(connect(trusting("known", "truck7", {uri(*stranger)})).down);
+  EXPECT_TRUE(connect(mqtt("truck7", {known->uri()})).down) << "no TLS";
+}
+
+TEST_F(Tls, AStrangerInTheListIsPassedOver) {
+  const auto known = broker("known"), stranger = broker("stranger");
+  MqttLink link(trusting("known", "truck7", {uri(*stranger), uri(*known)}));
+  MqttLink site_link(trusting("known", "site", {uri(*known)}));
+  BridgeParams params = test::bridge_params(store());
+  params.brokers = 2;
+  params.back_off = kQuick;
+  Bridge bridge(params, link, test::clocks());
+  std::size_t kept = 0;
+  SiteClient site(site_link, 1, kQuick, "+", "+", [&](const std::string&, const std::string&) { ++kept; });
+  for (int n = 1; n <= 20; ++n) bridge.take(test::change(n), test::clocks());
+  EXPECT_TRUE(run_until([&] { return bridge.outbox().acknowledged() == 20; },
+                        [&] {
+                          bridge.poll(test::clocks());
+                          site.poll(test::clocks().monotonic);
+                        },
+                        20))
+      << bridge.last_failure();
+  EXPECT_EQ(bridge.broker(), 1u);
+  EXPECT_EQ(kept, 20u);
 }
 
 }  // namespace

@@ -290,8 +290,11 @@ TEST_F(BridgeTest, TelemetryFollowsTheTruck) {
     poll(bridge);
   }
   bridge.telemetry().take_loads({change(1).pallet});
+  bridge.telemetry().take_battery({0.5, std::nullopt, true}, now().monotonic);
   poll(bridge);
   json state = json::parse(link_.on("/state").back().payload);
+  EXPECT_EQ(state["batteryState"], json({{"batteryCharge", 50.0}, {"charging", true}}));
+  EXPECT_EQ(state["information"].size(), 1u) << "of safetyState alone";
   EXPECT_EQ(link_.on("/state").back().qos, 0);
   EXPECT_EQ(state["operatingMode"], "MANUAL");
   EXPECT_EQ(state["driving"], true);
@@ -310,6 +313,13 @@ TEST_F(BridgeTest, TelemetryFollowsTheTruck) {
   state = json::parse(link_.on("/state").back().payload);
   EXPECT_EQ(state["errors"][0]["errorType"], "localizationLost");
   EXPECT_EQ(state["agvPosition"]["positionInitialized"], false);
+  EXPECT_EQ(state["batteryState"]["batteryCharge"], 50.0);
+  // Nor the battery's charge: it is not known any more.
+  time_s_ += 60;
+  poll(bridge, 2);
+  state = json::parse(link_.on("/state").back().payload);
+  EXPECT_EQ(state["batteryState"], json({{"batteryCharge", 0.0}, {"charging", false}}));
+  EXPECT_EQ(state["information"].size(), 2u);
 }
 
 TEST(BridgeParams, AllFaultsAtOnce) {

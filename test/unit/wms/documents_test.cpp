@@ -19,6 +19,9 @@ namespace {
 
 using nlohmann::json;
 using test::change;
+using test::correction;
+using test::gone;
+using test::uncertain;
 using test::uuid;
 
 const EpcisParams kParams = test::bridge_params("").epcis;
@@ -37,33 +40,6 @@ void expect_example(const std::string& name, const std::string& text) {
   std::stringstream example;
   example << file.rdbuf();
   EXPECT_EQ(json::parse(text).dump(2) + "\n", example.str()) << path;
-}
-
-PalletChange correction(PalletState state) {
-  PalletChange out = change(3);
-  out.kind = PalletChangeKind::kCorrection;
-  out.pallet = change(2).pallet;
-  out.pallet.state = state;
-  out.pallet.zone = "A-2";
-  out.reason = "stood one place further";
-  out.corrects = 2;
-  return out;
-}
-
-PalletChange uncertain() {
-  PalletChange out = change(6);
-  out.pallet.sscc.clear();
-  out.pallet.state = PalletState::kUncertain;
-  out.candidates = {uuid(3), uuid(4)};
-  out.pallet.coasting = true;
-  return out;
-}
-
-PalletChange gone() {
-  PalletChange out = change(4);
-  out.pallet.state = PalletState::kGone;
-  out.pallet.zone = "DOCK-1";
-  return out;
 }
 
 TEST(Documents, Examples) {
@@ -165,6 +141,7 @@ TEST(Documents, Vda5050Examples) {
   truck.protection_level_m = 0.125;
   truck.driving = true;
   truck.loads = {change(1).pallet};
+  truck.battery = Battery{0.75, 48.5, false};
   expect_example("vda5050_connection", messages.connection(VdaConnection::kOnline, test::at(0)).payload);
   expect_example("vda5050_state", messages.state(truck, test::at(1)).payload);
   expect_example("vda5050_visualization", messages.visualization(truck, test::at(2)).payload);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,19 @@ class PalletLedger {
   using Changes = std::vector<PalletChange>;
 
   explicit PalletLedger(std::vector<PalletSize> sizes) : map_(std::move(sizes)) {}
-  /// @param latest the last change of each pallet
-  void restore(const Changes& latest);
+  /// Takes up what an earlier ledger kept().
+  void restore(Changes kept);
 
   const PalletMap& map() const { return map_; }
   void set_carried(const std::set<std::string>& ids) { map_.set_carried(ids); }
+  std::uint64_t last() const { return sequence_; }  ///< number of the newest change; 0: none
   /// What was written since the last call.
   Changes take();
+
+  /// Ascending by number: the newest 500 changes, and before them the last one of each pallet that they do not tell of.
+  Changes kept() const;
+  /// Those of the newest that come after this number.
+  Changes after(std::uint64_t sequence) const;
 
   /// A pick or a drop.
   void write(PalletChangeKind kind, const Pallet& pallet, Stamp stamp, const std::vector<std::string>& candidates);
@@ -37,14 +44,16 @@ class PalletLedger {
   /// This pallet was found: it is no other's candidate any more.
   void strike(const std::string& id, Stamp stamp, const std::string& reason);
 
-  /// Pallets that left the site before this instant are forgotten, but for the last change of all.
+  /// Pallets that left the site before this instant are forgotten.
   void forget_gone(Stamp before);
 
  private:
   void write(PalletChange change);
+  void enter(PalletChange change);
   void release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason);
 
   PalletMap map_;
+  std::deque<PalletChange> newest_;  ///< numbered without gaps
   std::uint64_t sequence_ = 0;
   Changes changes_;
 };

@@ -28,7 +28,6 @@ class PalletMap {
   const PalletChange* find(const std::string& id) const;
   const PalletChange* with_sscc(const std::string& sscc) const;
   const std::map<std::string, PalletChange>& all() const { return latest_; }
-  std::uint64_t last_sequence() const;
 
   const PalletSize& size(const std::string& type) const;
   const PalletSize* find_size(const std::string& type) const;

@@ -17,7 +17,7 @@
 namespace lodestar {
 
 struct PalletTrackerParams {
-  std::vector<PalletSize> sizes = {PalletSize{"epal"}};  ///< one at least; the first is what a new pallet is
+  std::vector<PalletSize> sizes = {PalletSize{"epal"}};  ///< one at least; the first is what a new pallet is, where its zone has no other
   std::vector<Zone> zones;
   ForkSigmas sigmas;
   LoadWatchParams load;
@@ -57,14 +57,15 @@ class PalletTracker {
 
   /// Where the fork sits at its lowest; until then picks and drops have no pose.
   void set_fork(const RigidTransform& T_base_fork) { T_base_fork_ = T_base_fork; }
-  /// Takes up what an earlier tracker knew: the last change of each pallet, and what was on the fork, from below.
-  void restore(const Changes& latest, const std::vector<CarriedPallet>& carried);
+  /// Takes up what an earlier tracker knew: its ledger().kept(), and what was on the fork, from below.
+  void restore(const Changes& kept, const std::vector<CarriedPallet>& carried);
 
   /// @param coasting localization has no beacon
   std::optional<PalletDrop> add_pose(const PoseEstimate& pose, bool coasting);
   Changes add_load(const LoadSample& sample);
   Result<Changes, CorrectionFault> correct(const PalletCorrection& correction);
 
+  const PalletLedger& ledger() const { return ledger_; }
   const PalletMap& pallets() const { return ledger_.map(); }
   /// All pallets, ascending by id: those on the fork where the newest pose has them now, and not where they were
   /// lifted.
@@ -84,6 +85,7 @@ class PalletTracker {
   std::optional<Moment> moment(const LoadChange& change);
   bool is_riders(const std::string& label, const Fork& fork) const;
   Association identify(const std::string& label, const std::optional<Moment>& at) const;
+  std::string new_type(const std::optional<Moment>& at) const;
   Seat seat_of(const Pallet& pallet, bool known, const std::optional<Moment>& at) const;
   void pick(const LoadChange& change);
   void pick_riders(const PalletPose& below, const std::string& type, const LoadChange& change, const Moment& at);

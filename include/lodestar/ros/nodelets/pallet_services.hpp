@@ -8,16 +8,17 @@
 #include "lodestar/FindPallets.h"
 #include "lodestar/FreePlaces.h"
 #include "lodestar/GetPallet.h"
-#include "lodestar/base/site/zone.hpp"
+#include "lodestar/PalletEventsAfter.h"
+#include "lodestar/base/site/site.hpp"
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
 
 namespace lodestar {
 
-/// `pallets/get`, `find`, `correct` and `free_places`: what others ask of a tracker and tell it.
+/// `pallets/get`, `find`, `correct`, `free_places` and `events_after`: what others ask of a tracker and tell it.
 class PalletServices {
  public:
-  /// @param on_change called with what a correction changed
-  PalletServices(ros::NodeHandle& nh, PalletTracker& tracker, const std::vector<Zone>& zones,
+  /// @param tracker, site must outlive this @param on_change called with what a correction changed
+  PalletServices(ros::NodeHandle& nh, PalletTracker& tracker, const Site& site,
                  std::function<void(const PalletTracker::Changes&)> on_change);
 
  private:
@@ -25,9 +26,10 @@ class PalletServices {
   bool find(FindPallets::Request& request, FindPallets::Response& response);
   bool correct(CorrectPallet::Request& request, CorrectPallet::Response& response);
   bool free(FreePlaces::Request& request, FreePlaces::Response& response);
+  bool events_after(PalletEventsAfter::Request& request, PalletEventsAfter::Response& response);
 
   PalletTracker& tracker_;
-  std::vector<Zone> zones_;
+  const Site& site_;
   std::function<void(const PalletTracker::Changes&)> on_change_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nodelet/nodelet.h>
+#include <sensor_msgs/BatteryState.h>
 
 #include <memory>
 #include <string>
@@ -23,9 +24,12 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
   void take_event(const PalletEventConstPtr& message);
+  void record(const PalletEvent& message);
+  void ask_for_missed();
   void take_state(const PalletArrayConstPtr& message);
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void take_integrity(const PoseIntegrityConstPtr& message);
+  void take_battery(const sensor_msgs::BatteryStateConstPtr& message);
   void report(Health::Status& status);
   void report_trouble(Health::Status& status);
 
@@ -36,8 +40,10 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   std::unique_ptr<Bridge> bridge_;
   StreamWatch* events_watch_ = nullptr;
   StreamWatch* pose_watch_ = nullptr;
-  ros::Subscriber events_, state_, pose_, integrity_;
-  ros::WallTimer poll_;
+  std::uint64_t told_ = 0;  ///< number of the newest event that pallet tracking has
+  ros::Subscriber events_, state_, pose_, integrity_, battery_;
+  ros::ServiceClient events_after_;
+  ros::WallTimer poll_, catch_up_;
 };
 
 }  // namespace lodestar

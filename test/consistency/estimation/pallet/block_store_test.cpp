@@ -9,13 +9,13 @@ namespace {
 
 using test::BlockStore;
 using test::BlockStoreParams;
-using test::BlockStoreTally;
+using test::PalletTally;
 
 /// bench/pallet_report.cpp runs more of the same.
 TEST(BlockStore, every_pallet_is_the_right_one_and_where_it_was_set_down) {
   BlockStoreParams params;
   params.covariances = {test::usual_covariance()};
-  const BlockStoreTally tally = BlockStore(params, 1).run(1000);
+  const PalletTally tally = BlockStore(params, 1).run(1000);
   EXPECT_EQ(tally.wrong, 0);
   EXPECT_LT(tally.asked, 0.01 * tally.moves);
   EXPECT_GT(tally.identified, 1000);
@@ -32,7 +32,7 @@ TEST(BlockStore, the_covariance_of_the_set_down_pose_is_honest) {
   double sum = 0;
   int count = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const BlockStoreTally tally = BlockStore(params, seed).run(300);
+    const PalletTally tally = BlockStore(params, seed).run(300);
     sum += tally.nees_sum;
     count += tally.set_down;
   }
@@ -49,7 +49,7 @@ TEST(BlockStore, a_lost_truck_asks) {
   params.covariances = {lost};
   params.label_probability = 0;
   params.stack = 1;
-  const BlockStoreTally tally = BlockStore(params, 3).run(200);
+  const PalletTally tally = BlockStore(params, 3).run(200);
   EXPECT_GT(tally.asked, 100);
   EXPECT_LT(tally.wrong, 4);
 }

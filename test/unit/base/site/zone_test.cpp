@@ -21,6 +21,7 @@ zones:
     kind: storage
     polygon_m: [[0, 0], [4, 0], [4, 2], [0, 2]]
     levels_m: [0, 1.6, 3.2]
+    pallet: industrial
     places: {first_m: [3, 1.5], pitch_m: [1, 1.2], columns: 2, rows: 1, yaw_deg: 180}
 )";
 
@@ -39,6 +40,8 @@ TEST(Zones, are_read_and_written_back) {
   EXPECT_EQ(to_yaml(*again), to_yaml(*site));
   ASSERT_EQ(again->zones.size(), 3u);
   EXPECT_EQ(again->zones[2].grid->first_m, site->zones[2].grid->first_m);
+  EXPECT_EQ(again->zones[1].pallet_type, "");
+  EXPECT_EQ(again->zones[2].pallet_type, "industrial");
 }
 
 TEST(Zones, a_pose_has_a_storage_code_and_a_code_a_pose) {

@@ -243,11 +243,9 @@ TEST(PalletTracker, goes_on_after_a_restart_with_its_load) {
   before.bring(0, 0, PalletTruck::sscc(1));
   before.stand(5, 0, radians(180));
   before.lift();
-  PalletTracker::Changes latest;
-  for (const auto& [id, change] : before.tracker.pallets().all()) latest.push_back(change);
 
   PalletTruck after;
-  after.tracker.restore(latest, before.tracker.carried());
+  after.tracker.restore(before.tracker.ledger().kept(), before.tracker.carried());
   after.stand(7, 1, radians(90));
   after.work(true, "", 0);
   const auto dropped = after.lower();
@@ -255,6 +253,37 @@ TEST(PalletTracker, goes_on_after_a_restart_with_its_load) {
   EXPECT_EQ(dropped[0].sequence, 4u);
   EXPECT_EQ(dropped[0].pallet.id, "id2");
   EXPECT_NEAR((dropped[0].pallet.T_map_pallet.translation() - Eigen::Vector3d(7, 1, 0)).norm(), 0, 1e-9);
+}
+
+TEST(PalletTracker, tells_again_what_somebody_missed_also_after_a_restart) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  const auto numbers = [](const PalletTracker::Changes& changes) {
+    std::vector<std::uint64_t> out;
+    for (const PalletChange& change : changes) out.push_back(change.sequence);
+    return out;
+  };
+  truck.bring(5, 0);
+  EXPECT_EQ(numbers(truck.tracker.ledger().after(2)), (std::vector<std::uint64_t>{3, 4}));
+  EXPECT_TRUE(truck.tracker.ledger().after(4).empty());
+  // One pallet goes to and fro until all else is older than what is told again; its last change is kept all the same.
+  for (int i = 0; i < 260; ++i) {
+    truck.lift();
+    truck.lower();
+  }
+  PalletTruck later;
+  later.tracker.restore(truck.tracker.ledger().kept(), truck.tracker.carried());
+  for (const PalletTruck* each : {&truck, &later}) {
+    const PalletLedger& ledger = each->tracker.ledger();
+    EXPECT_EQ(ledger.last(), 524u);
+    EXPECT_EQ(ledger.kept().size(), 501u);
+    const auto told = numbers(ledger.after(0));
+    ASSERT_EQ(told.size(), 500u);
+    EXPECT_EQ(told.front(), 25u);
+    EXPECT_EQ(told.back(), 524u);
+    EXPECT_EQ(each->pallet("id1").sscc, PalletTruck::sscc(1));
+    EXPECT_EQ(ledger.after(523).front().kind, PalletChangeKind::kDrop);
+  }
 }
 
 TEST(PalletTracker, keeps_pallets_when_time_goes_backwards) {
@@ -292,8 +321,29 @@ TEST(PalletTracker, refuses_corrections_that_cannot_be) {
   EXPECT_EQ(fault([](C& c) { c.pose = PalletPose(); }), CorrectionFault::kOnFork);
 }
 
+TEST(PalletTracker, a_new_pallet_is_what_its_zone_holds) {
+  PalletTrackerParams params;
+  params.sizes = {{"epal", {1.2, 0.8}}, {"half", {0.8, 0.6}}};
+  Zone zone;
+  zone.polygon_map = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  zone.pallet_type = "half";
+  params.zones = {zone};
+  PalletTruck truck(params);
+  truck.stand(0, 0);
+  const auto lifted = truck.lift();
+  ASSERT_EQ(lifted.size(), 1u);
+  EXPECT_EQ(lifted[0].pallet.type, "half");
+  // Pushed on as far as it goes: half its own length ahead of the fork, which is 0.6 m before the zone's middle.
+  EXPECT_NEAR(lifted[0].pallet.T_map_pallet.translation().x(), -0.2, 1e-9);
+  truck.lower();
+  truck.stand(5, 0);
+  EXPECT_EQ(truck.lift()[0].pallet.type, "epal");
+}
+
 TEST(PalletTracker, takes_a_persons_word) {
-  PalletTruck truck;
+  PalletTrackerParams params;
+  params.sizes = {{"industrial", {1.2, 1.0}}, {"epal", {1.2, 0.8}}};
+  PalletTruck truck(params);
   truck.bring(0, 0);
   PalletCorrection correction;
   correction.stamp = truck.now;
@@ -304,6 +354,12 @@ TEST(PalletTracker, takes_a_persons_word) {
   ASSERT_TRUE(truck.tracker.correct(correction).ok());
   EXPECT_EQ(truck.pallet("id1").sscc, PalletTruck::sscc(3));
   EXPECT_EQ(truck.pallet("id1").T_map_pallet.translation().x(), 2);
+  PalletCorrection type;
+  type.stamp = truck.now;
+  type.id = "id1";
+  type.type = "epal";
+  ASSERT_TRUE(truck.tracker.correct(type).ok());
+  EXPECT_EQ(truck.pallet("id1").type, "epal");
   PalletCorrection gone;
   gone.stamp = truck.now;
   gone.id = "id1";
