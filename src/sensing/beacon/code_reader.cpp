@@ -13,9 +13,11 @@ namespace {
 constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
-constexpr float kDepthMargin = 1.2f;    ///< over the deepest that n equal tones can dim, rms 1 / sqrt(2 n) of the mean
-constexpr float kMaxToneError = 0.15f;  ///< of the varying light, that the tones leave
-constexpr float kMaxOnOffError = 0.2f;  ///< ... that being on or off leaves: more, where blur and edges cut it
+constexpr float kBelowZero = 0.1f;         ///< of the mean: how far the tones of a light, which never is, may go
+constexpr float kMaxToneError = 0.035f;    ///< of the varying light, that the tones leave
+constexpr float kMaxOnOffError = 0.2f;     ///< ... that being on or off leaves: more, where blur and edges cut it
+constexpr float kMaxUneven = 0.025f;       ///< ... that the midst of bright and dark halves leaves of being flat
+constexpr float kMostPaused = 0.2f;        ///< of the frames
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
@@ -29,7 +31,7 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 }  // namespace
 
 CodeReader::CodeReader(const CodeReaderParams& params, int slots)
-    : params_(params), wave_(slots), weights_(slots), ranks_(static_cast<std::size_t>(slots)) {}
+    : params_(params), wave_(slots), model_(slots), weights_(slots), ranks_(static_cast<std::size_t>(slots)) {}
 
 bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance) {
   constexpr double kNearThreshold = 0.7, kEnergySigmas = 8;
@@ -45,9 +47,10 @@ bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double pow
 
 CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
   // The strongest tones are fitted together and taken off the others: on uneven stamps they leak.
+  // A fit that leaves nothing over proves nothing.
   std::array<int, ToneSet::kMaxTones> order;
   std::iota(order.begin(), order.end(), 0);
-  const auto most = static_cast<std::ptrdiff_t>(std::min(kMaxTonesPerCode, bank.tones()));
+  const int most = std::min({kMaxTonesPerCode, bank.tones(), (bank.slots() - 2) / 2});
   std::partial_sort(order.begin(), order.begin() + most, order.begin() + bank.tones(),
                     [&](int a, int b) { return tone_power(projections_, a) > tone_power(projections_, b); });
   Fit fit;
@@ -86,22 +89,48 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
   return fit;
 }
 
-float CodeReader::residual_energy(const BlobTrack::Series& flux, float mean, int& freedom) const {
-  // While a beacon sends its frame its tones pause and its light is the mean (link page, section 2): a frame that shows
-  // the mean where the code says otherwise is no measure of noise.
-  constexpr float kAtMean = 0.1f, kOffMean = 0.25f, kMostPaused = 0.2f;
-  float energy = 0, paused_energy = 0;
-  int paused = 0;
-  for (Eigen::Index i = 0; i < flux.size(); ++i) {
-    const float left = flux[i] - mean - wave_[i];
-    energy += left * left;
-    if (std::abs(flux[i] - mean) > kAtMean * mean || std::abs(wave_[i]) < kOffMean * mean) continue;
-    paused_energy += left * left;
-    ++paused;
-  }
-  if (static_cast<float>(paused) > kMostPaused * static_cast<float>(flux.size())) return energy;
-  freedom = std::max(0, freedom - paused);
-  return energy - paused_energy;
+int CodeReader::spare_pauses(const BlobTrack::Series& flux, float level, float reach, float off_level) {
+  const auto paused = (flux - level).abs() < reach && wave_.abs() > off_level;
+  const auto count = static_cast<int>(paused.count());
+  if (static_cast<float>(count) > kMostPaused * static_cast<float>(flux.size())) return 0;
+  weights_ *= 1 - paused.cast<float>();
+  return count;
+}
+
+int CodeReader::model_tones(const BlobTrack::Series& flux, float mean) {
+  constexpr float kAtMean = 0.1f, kOffMean = 0.25f;
+  model_ = mean + wave_;
+  weights_.setOnes();
+  return spare_pauses(flux, mean, kAtMean * mean, kOffMean * mean);
+}
+
+void CodeReader::model_on_off(const BlobTrack::Series& flux) {
+  constexpr float kMidst = 0.5f, kAtHalf = 0.1f;
+  const float edge = kMidst * std::sqrt(2 * wave_.square().mean());
+  weights_ = (wave_.abs() > edge).cast<float>();
+  const auto level = [&](const auto& half) {
+    const auto share = weights_ * half.template cast<float>();
+    return (share * flux).sum() / share.sum();
+  };
+  float bright = level(wave_ > 0), dark = level(wave_ < 0);
+  spare_pauses(flux, 0.5f * (bright + dark), kAtHalf * (bright - dark), edge);
+  bright = level(wave_ > 0);
+  dark = level(wave_ < 0);
+  model_ = (wave_ > 0).select(BlobTrack::Series::Constant(flux.size(), bright),
+                              BlobTrack::Series::Constant(flux.size(), dark));
+}
+
+float CodeReader::misfit(const BlobTrack::Series& flux, const FrameWindow& window) const {
+  const Stamp newest = window.at(window.newest()).stamp;
+  const auto time = BlobTrack::Series::NullaryExpr(flux.size(), [&](Eigen::Index slot) {
+    return static_cast<float>(seconds(window.at(static_cast<int>(slot)).stamp - newest));
+  });
+  const auto light = weights_ * model_;
+  const auto left = weights_ * (flux - model_);
+  const auto growth = light * (time - (light * time).sum() / light.sum());
+  const float along = (left * growth).sum();
+  return (left.square().sum() - along * along / growth.square().sum()) * static_cast<float>(flux.size()) /
+         weights_.sum();
 }
 
 float CodeReader::on_off_residual(const BlobTrack::Series& flux) {
@@ -122,19 +151,21 @@ float CodeReader::on_off_residual(const BlobTrack::Series& flux) {
   return least;
 }
 
-bool CodeReader::has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance) {
+bool CodeReader::has_waveform(const BlobTrack& track, const FrameWindow& window, const Reading& reading,
+                              double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<float>(flux.size());
   const float noise = static_cast<float>(dark_variance) * track.filter().flux_variance();
   const float scatter = (frames + 3 * std::sqrt(2 * frames)) * noise;
   const float light = std::max(0.0f, reading.energy - frames * noise);
   const auto tones = static_cast<float>(reading.code.size());
-  if (tones == 1 && on_off_residual(flux) < kMaxOnOffError * light + scatter) return true;
-  const float deepest = kDepthMargin / std::sqrt(2 * tones);
-  const float rms = std::sqrt(wave_.square().mean());
-  int freedom = 0;
-  return residual_energy(flux, reading.mean, freedom) < kMaxToneError * light + scatter &&
-         rms < deepest * reading.mean + 3 * (1 + deepest) * std::sqrt(noise / frames);
+  if (tones == 1 && on_off_residual(flux) < kMaxOnOffError * light + scatter) {
+    model_on_off(flux);
+    if (misfit(flux, window) < kMaxUneven * light + scatter) return true;
+  }
+  model_tones(flux, reading.mean);
+  const float deepest = kBelowZero * reading.mean + 3 * std::sqrt((1 + 2 * tones) / frames * noise);
+  return misfit(flux, window) < kMaxToneError * light + scatter && model_.minCoeff() > -deepest;
 }
 
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
@@ -163,8 +194,9 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   double residual = 0;
   int freedom = 0;
   if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
-    freedom = std::max(0, frames - 1 - 2 * reading.code.size());
-    residual += residual_energy(flux, reading.mean, freedom) / flux_variance;
+    const int paused = model_tones(flux, reading.mean);
+    freedom = std::max(0, frames - 1 - 2 * reading.code.size() - paused);
+    residual += (weights_ * (flux - model_).square()).sum() / flux_variance;
   }
   if (track.path().still()) {
     const float square = flux.square().sum();
@@ -304,7 +336,7 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
     return std::nullopt;
   }
   if (reading.weakest_over_noise < power_threshold) return std::nullopt;
-  if (whole && !has_waveform(track, reading, dark_variance)) return std::nullopt;
+  if (whole && !has_waveform(track, window, reading, dark_variance)) return std::nullopt;
   if (whole) {
     track.code = reading.code;
     track.hidden = false;

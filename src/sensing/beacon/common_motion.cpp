@@ -11,7 +11,6 @@ void CommonMotion::predict(FrameWindow& window, const ImageMotion& image) {
 
 void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
   constexpr int kHits = 3;
-  constexpr double kShapePx2 = 0.1 * 0.1;  // what a blurred spot leaves open
   if (!ego_.known()) return;
   const double interval_s = window.interval_s(window.newest());
   std::size_t resting = 0;
@@ -20,7 +19,7 @@ void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window
     const PathFilter& path = tracks[i].path();
     resting += path.still();
     if (path.still() || !tracks[i].seen() || tracks[i].hits() < kHits) continue;
-    const double variance = path.variance() + tracks[i].seen_variance() + kShapePx2;
+    const double variance = path.variance() + tracks[i].seen_variance() + path.model_variance();
     flows_.push_back(
         {path.pixel(), (tracks[i].seen_at() - path.pixel()) / interval_s, variance / (interval_s * interval_s)});
   }
@@ -29,7 +28,8 @@ void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window
   for (std::size_t i = 0; i < count; ++i) {
     PathFilter& path = tracks[i].path();
     if (ego_.known()) {
-      path.shift(EgoMotion::flow(change, path.pixel(), *image.camera) * interval_s);
+      const double variance = ego_.flow_variance(path.pixel(), *image.camera);
+      path.shift(EgoMotion::flow(change, path.pixel(), *image.camera) * interval_s, variance * interval_s * interval_s);
     } else {
       path.hand_over(-EgoMotion::flow(before, path.pixel(), *image.camera));
     }
@@ -55,7 +55,6 @@ int CommonMotion::gather_velocities(const Tracks& tracks, std::size_t count, con
 }
 
 void CommonMotion::learn(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
-  constexpr double kOwnFades = 0.1;  // a frame; what a height makes of it is learnt as fast
   const int resting = gather_velocities(tracks, count, image);
   if (!ego_.known()) {
     if (resting <= static_cast<int>(flows_.size())) start(tracks, count, window, image);
@@ -65,7 +64,7 @@ void CommonMotion::learn(Tracks& tracks, std::size_t count, FrameWindow& window,
   for (std::size_t i = 0; i < count; ++i) {
     PathFilter& path = tracks[i].path();
     path.hand_over(EgoMotion::flow(change, path.pixel(), *image.camera));
-    path.hand_over(kOwnFades * path.velocity_px_s());
+    path.forget_acceleration();
   }
 }
 
@@ -74,7 +73,6 @@ void CommonMotion::start(Tracks& tracks, std::size_t count, FrameWindow& window,
   for (std::size_t i = 0; i < count; ++i) {
     PathFilter& path = tracks[i].path();
     path.hand_over(flow(path.pixel(), image));
-    path.forget_acceleration();
   }
   // Before it was known the camera moved alike.
   for (int age = 0; age < window.size() - 1; ++age) {

@@ -1,6 +1,6 @@
 #include "lodestar/sensing/beacon/ego_motion.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,7 +53,8 @@ EgoMotion::Fit EgoMotion::fit(const std::vector<Flow>& flows, const CameraModel&
       fit.agreeing += distance2 < kGate;
       fit.cost += std::log1p(distance2 / kGate);
     }
-    fit.twist = information.ldlt().solve(right);
+    fit.covariance = information.inverse();
+    fit.twist = fit.covariance * right;
   }
   return fit;
 }
@@ -96,7 +97,9 @@ EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows, const CameraM
   known_ = doubted_ <= kPatience;
   // What one or two blobs show beside the trend may be their own.
   const bool trusted = agreed && change.agreeing >= kLeastBlobs;
-  trend_ = trusted ? Twist((1 - kTrendFades) * (trend_ + kTrendGain * change.twist)) : Twist(0.5 * trend_);
+  if (trusted) trend_ += kTrendGain * change.twist;
+  trend_ *= 1 - kTrendFades;
+  covariance_ = agreed ? change.covariance : (step_sigma_ * freedom_).cwiseAbs2().asDiagonal();
   if (!agreed) return Twist::Zero();
   twist_ += change.twist;
   return change.twist;
@@ -114,6 +117,11 @@ RigidTransform EgoMotion::T_before_now(double interval_s, double plane_height_m)
   T.linear() = so3_exp(twist_.head<3>() * interval_s);
   T.translation() = twist_.tail<3>() * interval_s * plane_height_m;
   return T;
+}
+
+double EgoMotion::flow_variance(const Eigen::Vector2d& pixel, const CameraModel& camera) const {
+  const Jacobian J = J_flow_twist(pixel, camera);
+  return 0.5 * (J * covariance_ * J.transpose()).trace();
 }
 
 Eigen::Vector2d EgoMotion::flow(const Twist& twist, const Eigen::Vector2d& pixel, const CameraModel& camera) {

@@ -82,10 +82,14 @@ void PathFilter::stay(const Eigen::Vector2d& innovation, double variance) {
   pixel_ += weight / information_ * innovation;
 }
 
-void PathFilter::move(const Eigen::Vector2d& innovation, double variance) {
+double PathFilter::model_variance() const {
   // Light that changes within an exposure moves the middle of a blurred spot.
-  const double model_sigma = kModelSigmaPx + std::min(kMaxBlurSigmaPx, kBlurShare * travel_px_);
-  const double S = P_(0, 0) + variance + model_sigma * model_sigma;
+  const double sigma = kModelSigmaPx + std::min(kMaxBlurSigmaPx, kBlurShare * travel_px_);
+  return sigma * sigma;
+}
+
+void PathFilter::move(const Eigen::Vector2d& innovation, double variance) {
+  const double S = P_(0, 0) + variance + model_variance();
   const Eigen::Vector3d K = P_.col(0) / S;
   pixel_ += K[0] * innovation;
   velocity_ += K[1] * innovation;

@@ -50,12 +50,20 @@ class CodeReader {
     Eigen::Matrix<float, Eigen::Dynamic, 1, 0, 2 * kMaxTonesPerCode, 1> amplitudes;
   };
   Fit fit_code(const ToneBank& bank, float noise_power);
-  /// Energy that the code leaves of the flux, paused frames left out. @param freedom less by those
-  float residual_energy(const BlobTrack::Series& flux, float mean, int& freedom) const;
+  /// While a beacon sends its frame its tones pause and its light is half way (link page, section 2): frames that are
+  /// within `reach` of that level where the code's part says `off_level` are no measure of it and get weight 0.
+  int spare_pauses(const BlobTrack::Series& flux, float level, float reach, float off_level);
+  /// The light that the code's tones let expect. Returns the number of pauses.
+  int model_tones(const BlobTrack::Series& flux, float mean);
+  /// ... that an on-off beacon lets: two levels, each as the midst of its half has it. The edges get weight 0.
+  void model_on_off(const BlobTrack::Series& flux);
+  /// Energy that the model leaves of the flux, were all frames like those with weight. A beacon that is passed grows
+  /// brighter or fainter, evenly and all of its light alike: that is none.
+  float misfit(const BlobTrack::Series& flux, const FrameWindow& window) const;
   /// Energy that is left when the frames are either lit or dark, as the code's one tone has it.
   float on_off_residual(const BlobTrack::Series& flux);
   /// Whether the light goes as a beacon's: its tones as deep as they can be without its going below zero, or on-off.
-  bool has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance);
+  bool has_waveform(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance);
   Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
@@ -63,9 +71,9 @@ class CodeReader {
 
   CodeReaderParams params_;
   Eigen::VectorXf projections_;
-  Eigen::ArrayXf wave_;     ///< the code's part of the light, in each slot
-  Eigen::ArrayXf weights_;  ///< scratch, one a slot
-  std::vector<int> ranks_;  ///< scratch
+  Eigen::ArrayXf wave_;             ///< the code's part of the light, in each slot
+  Eigen::ArrayXf model_, weights_;  ///< scratch, one a slot
+  std::vector<int> ranks_;          ///< scratch
 };
 
 }  // namespace lodestar

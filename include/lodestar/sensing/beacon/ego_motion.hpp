@@ -43,6 +43,9 @@ class EgoMotion {
   /// Camera coordinates now to those `interval_s` ago.
   RigidTransform T_before_now(double interval_s, double plane_height_m) const;
 
+  /// Variance of flow() at a pixel after refine(), of each component, (px/s)^2.
+  double flow_variance(const Eigen::Vector2d& pixel, const CameraModel& camera) const;
+
   /// Velocity that a twist gives the beacons' image at a pixel, px/s; zero where the lens has no answer.
   static Eigen::Vector2d flow(const Twist& twist, const Eigen::Vector2d& pixel, const CameraModel& camera);
 
@@ -50,6 +53,7 @@ class EgoMotion {
   using Jacobian = Eigen::Matrix<double, 2, 6>;
   struct Fit {
     Twist twist = Twist::Zero();
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     int agreeing = 0;
     double cost = 0;
   };
@@ -60,7 +64,8 @@ class EgoMotion {
   bool known_ = false;
   Twist twist_ = Twist::Zero(), trend_ = Twist::Zero();  ///< and its change from frame to frame
   Twist freedom_ = Twist::Zero();  ///< 1 where the kind of motion has it, next to nothing elsewhere
-  double step_sigma_ = 0;          ///< of what a frame brings beside the trend; follows what the blobs say
+  Eigen::Matrix<double, 6, 6> covariance_ = Eigen::Matrix<double, 6, 6>::Zero();  ///< of the newest step
+  double step_sigma_ = 0;  ///< of what a frame brings beside the trend; follows what the blobs say
   int doubted_ = 0;
   std::vector<Jacobian> jacobians_;  ///< scratch
 };

@@ -23,16 +23,27 @@ class PathFilter {
   /// The newest frame shows it at `pixel`, with `variance` (px^2, each axis).
   void update(const Eigen::Vector2d& pixel, double variance);
 
-  /// The prediction is known better: it was off by `change`. Nothing to one that stands.
-  void shift(const Eigen::Vector2d& change_px) { pixel_ += still_ ? Eigen::Vector2d::Zero() : change_px; }
+  /// The prediction is known better: it was off by `change`, whose variance (px^2, each axis) the place takes over.
+  /// Nothing to one that stands.
+  void shift(const Eigen::Vector2d& change_px, double variance) {
+    if (still_) return;
+    pixel_ += change_px;
+    P_(0, 0) += variance;
+  }
   /// The predictions to come hold so much more of the velocity, and how that changes along the way.
   void hand_over(const Eigen::Vector2d& velocity_px_s) { velocity_ -= velocity_px_s; }
-  void forget_acceleration() { acceleration_.setZero(); }
+  void forget_acceleration() {
+    acceleration_.setZero();
+    P_.row(2).setZero();
+    P_.col(2).setZero();
+  }
 
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_; }
   double variance() const;
   double velocity_variance() const { return P_(1, 1); }  ///< (px/s)^2, of a moving one
+  /// Of where a moving one is seen: what the spot's shape and blur leave open, px^2, each axis.
+  double model_variance() const;
   bool still() const { return still_; }
   /// Sets the place of a standing blob: a better one is known.
   void correct(const Eigen::Vector2d& pixel, double variance);
