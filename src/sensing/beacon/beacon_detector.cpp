@@ -162,7 +162,7 @@ bool BeaconDetector::read_new(BlobTrack& track, double power_threshold, const Pi
   constexpr double kAimedPx = 0.005;
   for (int round = 0; round < kRounds; ++round) {
     if (!track.read_window(window_, window_.size(), noise)) return false;
-    reader_.learn(track, bank_, noise.dark_variance);
+    reader_.learn(track, window_, bank_, noise.dark_variance);
     const bool aimed = (track.path().pixel() - track.anchor()).norm() < kAimedPx;
     if (!track.reshape(noise.dark_variance) && aimed) break;
   }

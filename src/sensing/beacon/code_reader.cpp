@@ -89,19 +89,18 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
   return fit;
 }
 
-int CodeReader::spare_pauses(const BlobTrack::Series& flux, float level, float reach, float off_level) {
+void CodeReader::spare_pauses(const BlobTrack::Series& flux, float level, float reach, float off_level) {
+  constexpr float kMostPaused = 0.2f;  // of the frames
   const auto paused = (flux - level).abs() < reach && wave_.abs() > off_level;
-  const auto count = static_cast<int>(paused.count());
-  if (static_cast<float>(count) > kMostPaused * static_cast<float>(flux.size())) return 0;
+  if (static_cast<float>(paused.count()) > kMostPaused * static_cast<float>(flux.size())) return;
   weights_ *= 1 - paused.cast<float>();
-  return count;
 }
 
-int CodeReader::model_tones(const BlobTrack::Series& flux, float mean) {
+void CodeReader::model_tones(const BlobTrack::Series& flux, float mean) {
   constexpr float kAtMean = 0.1f, kOffMean = 0.25f;
   model_ = mean + wave_;
   weights_.setOnes();
-  return spare_pauses(flux, mean, kAtMean * mean, kOffMean * mean);
+  spare_pauses(flux, mean, kAtMean * mean, kOffMean * mean);
 }
 
 void CodeReader::model_on_off(const BlobTrack::Series& flux) {
@@ -168,7 +167,8 @@ bool CodeReader::has_waveform(const BlobTrack& track, const FrameWindow& window,
   return misfit(flux, window) < kMaxToneError * light + scatter && model_.minCoeff() > -deepest;
 }
 
-CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance) {
+CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                            double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<int>(flux.size());
   const float flux_variance = track.filter().flux_variance();
@@ -194,9 +194,14 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   double residual = 0;
   int freedom = 0;
   if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
-    const int paused = model_tones(flux, reading.mean);
-    freedom = std::max(0, frames - 1 - 2 * reading.code.size() - paused);
-    residual += (weights_ * (flux - model_).square()).sum() / flux_variance;
+    freedom = std::max(0, frames - 2 - 2 * reading.code.size());
+    model_tones(flux, reading.mean);
+    float left = misfit(flux, window);
+    if (reading.code.size() == 1) {
+      model_on_off(flux);
+      left = std::min(left, misfit(flux, window));
+    }
+    residual += left / flux_variance;
   }
   if (track.path().still()) {
     const float square = flux.square().sum();
@@ -211,8 +216,8 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const ToneBa
   return reading;
 }
 
-void CodeReader::learn(BlobTrack& track, const ToneBank& bank, double dark_variance) {
-  const Reading reading = read_window(track, bank, dark_variance);
+void CodeReader::learn(BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance) {
+  const Reading reading = read_window(track, window, bank, dark_variance);
   track.learn_noise(reading.pixel_variance);
   if (!reading.code.empty()) refine_centre(track, reading);
 }
@@ -325,7 +330,7 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
   if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity() && freedom >= kLeastFreedom))
     return std::nullopt;
   const Reading reading =
-      whole ? read_window(track, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
+      whole ? read_window(track, window, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
   if (whole) track.learn_noise(reading.pixel_variance);
   if (reading.code.empty() || !reading.explained) return std::nullopt;
   // A beacon is dimmed all the way, 0.4 to 0.7 of its mean rms; what shimmers on a steady lamp is not.

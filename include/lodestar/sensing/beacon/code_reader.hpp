@@ -29,7 +29,7 @@ class CodeReader {
                                double power_threshold, double dark_variance);
 
   /// Learns the noise of a new blob's pixels and its centre from a full window.
-  void learn(BlobTrack& track, const ToneBank& bank, double dark_variance);
+  void learn(BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
 
   /// Whether the light of a full window varies more than noise does: in all, or at a tone.
   bool varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance);
@@ -52,9 +52,9 @@ class CodeReader {
   Fit fit_code(const ToneBank& bank, float noise_power);
   /// While a beacon sends its frame its tones pause and its light is half way (link page, section 2): frames that are
   /// within `reach` of that level where the code's part says `off_level` are no measure of it and get weight 0.
-  int spare_pauses(const BlobTrack::Series& flux, float level, float reach, float off_level);
-  /// The light that the code's tones let expect. Returns the number of pauses.
-  int model_tones(const BlobTrack::Series& flux, float mean);
+  void spare_pauses(const BlobTrack::Series& flux, float level, float reach, float off_level);
+  /// The light that the code's tones let expect.
+  void model_tones(const BlobTrack::Series& flux, float mean);
   /// ... that an on-off beacon lets: two levels, each as the midst of its half has it. The edges get weight 0.
   void model_on_off(const BlobTrack::Series& flux);
   /// Energy that the model leaves of the flux, were all frames like those with weight. A beacon that is passed grows
@@ -64,7 +64,7 @@ class CodeReader {
   float on_off_residual(const BlobTrack::Series& flux);
   /// Whether the light goes as a beacon's: its tones as deep as they can be without its going below zero, or on-off.
   bool has_waveform(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance);
-  Reading read_window(const BlobTrack& track, const ToneBank& bank, double dark_variance);
+  Reading read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
   void refine_centre(BlobTrack& track, const Reading& reading);
