@@ -11,7 +11,7 @@ namespace lodestar {
 namespace {
 
 constexpr int kTileRows = 16;       ///< a tile is one segment wide and 16 cells high
-constexpr int kFlagsAtOnce = 8;     ///< looked through
+constexpr int kMarksAtOnce = 8;     ///< looked through
 constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
 constexpr float kFirstLimit = 4.5f;  ///< of a spot's energy, sigmas
@@ -38,6 +38,19 @@ double clipped_mean(int count, double variance, Next&& next_square) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += std::min<double>(next_square(), 9 * variance);
   return sum / count / kLeft;
+}
+
+/// Calls `visit(i)` for each mark that has `bit`, `count` being a multiple of kMarksAtOnce. Nearly all are 0.
+template <class Visit>
+void for_each_marked(const std::uint8_t* marks, int count, std::uint8_t bit, Visit&& visit) {
+  for (int begin = 0; begin < count; begin += kMarksAtOnce) {
+    std::uint64_t all;
+    static_assert(sizeof(all) == kMarksAtOnce, "all marks are looked at");
+    std::memcpy(&all, marks + begin, sizeof(all));
+    if (all == 0) continue;
+    for (int i = begin; i < begin + kMarksAtOnce; ++i)
+      if (marks[i] & bit) visit(i);
+  }
 }
 
 bool is_larger(const ChangeScan::Change& a, const ChangeScan::Change& b) { return a.size > b.size; }
@@ -83,7 +96,7 @@ void ChangeScan::start(const Image& image, Planes<Lane>& planes) {
       static_cast<std::size_t>(segments_) * static_cast<std::size_t>((rows_ + kTileRows - 1) / kTileRows);
   planes.limit.assign(tiles, 0);
   tile_limit_.assign(tiles, kFirstLimit);
-  flag_stride_ = (segments_ + kFlagsAtOnce - 1) / kFlagsAtOnce * kFlagsAtOnce;
+  flag_stride_ = (segments_ + kMarksAtOnce - 1) / kMarksAtOnce * kMarksAtOnce;
   flags_.assign(static_cast<std::size_t>(flag_stride_ * rows_), 0);
   cell_variance_ = 0;
 }
@@ -215,25 +228,18 @@ void ChangeScan::for_each_peak(ChangeFlag flag, const Value& value, const Limit&
       if (value(i + d) > here) return false;
     return true;
   };
-  const auto search = [&](int row, int segment) {
-    const int column = segment * kSegment, right = std::min(kSegment, columns_ - 1 - column);
-    const std::ptrdiff_t first = row * stride + column;
-    const auto least = limit(tile(column, row));
-    std::uint8_t hits[kSegment];
-    for (int c = 0; c < kSegment; ++c) hits[c] = value(first + c) > least;  // plain arithmetic: becomes vector code
-    for (int c = segment == 0 ? 1 : 0; c < right; ++c)
-      if (hits[c] && is_peak(first + c)) found(Eigen::Vector2i(2 * (column + c), 2 * row), first + c);
-  };
   for (int row = 1; row < rows_ - 1; ++row) {
-    const std::uint8_t* flags = flags_.data() + row * flag_stride_;
-    for (int begin = 0; begin < flag_stride_; begin += kFlagsAtOnce) {
-      std::uint64_t all;  // nearly all segments are calm
-      static_assert(sizeof(all) == kFlagsAtOnce);
-      std::memcpy(&all, flags + begin, kFlagsAtOnce);
-      if (all == 0) continue;
-      for (int segment = begin; segment < begin + kFlagsAtOnce; ++segment)
-        if (flags[segment] & flag) search(row, segment);
-    }
+    for_each_marked(flags_.data() + row * flag_stride_, flag_stride_, flag, [&](int segment) {
+      const int column = segment * kSegment, right = columns_ - 1 - column;
+      const std::ptrdiff_t first = row * stride + column;
+      const auto least = limit(tile(column, row));
+      std::uint8_t above[kSegment];
+      for (int c = 0; c < kSegment; ++c) above[c] = value(first + c) > least;  // plain arithmetic: becomes vector code
+      for_each_marked(above, kSegment, 1, [&](int c) {
+        if (column + c > 0 && c < right && is_peak(first + c))
+          found(Eigen::Vector2i(2 * (column + c), 2 * row), first + c);
+      });
+    });
   }
 }
 
