@@ -16,7 +16,7 @@ constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
 constexpr float kFirstLimit = 4.5f;  ///< of a spot's energy, sigmas
 constexpr float kLeastLimit = 2.5f;
-constexpr float kPeakShare = 0.75f;                       ///< of the limit, that the spot's strongest cell must reach
+constexpr float kPeakShare = 0.85f;                       ///< of the limit, that the spot's strongest cell must reach
 constexpr float kExcessForgets = 0.005f;                  ///< a frame, of what a passing disturbance has raised
 constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain adds: a share, and at least
 constexpr int kNoiseSample = 256;                         ///< cells a frame
