@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "lodestar/estimation/naming/beacon_namer.hpp"
 #include "support/beacon/grid.hpp"
 
 namespace lodestar::test {
@@ -30,10 +31,11 @@ struct HallOfLamps {
   bool motion_input = true;
 
   long frames = 0, sightings = 0, lamps_in_view = 0;
+  long named_alone = 0, named_heard = 0;  ///< without a receiver; as shipped, where names need announcements
   std::map<ToneSet, long> codes;
 
   /// Sightings in a code that a site may give a beacon: two tones, none a multiple of the other (site_hall.yaml).
-  long named() const {
+  long nameable() const {
     long count = 0;
     for (const auto& [code, times] : codes) {
       if (code.size() != 2) continue;
@@ -62,6 +64,12 @@ struct HallOfLamps {
     hang(speed_m_s * duration_s, seen_from, scene);
 
     BeaconDetector detector = detector_for(scene, plan_params(), lens);
+    const std::vector<Beacon> beacons = one_of_each_code();
+    const BeaconNamer alone({}), heard([] {
+      BeaconNamerParams params;
+      params.require_announcement = true;
+      return params;
+    }());
     CameraMotion motion;
     const auto count = static_cast<long>(duration_s * kPlanRate_hz);
     for (long i = 0; i < count; ++i) {
@@ -74,10 +82,19 @@ struct HallOfLamps {
         motion.add_imu({image.stamp, {0, 0, yaw_rate}, {0, 0, 9.81}});
       }
       ++frames;
-      for (const Sighting& sighting : detect(detector, image, motion)) {
+      Sightings seen;
+      seen.stamp = image.stamp;
+      seen.sightings = detect(detector, image, motion);
+      for (const Sighting& sighting : seen.sightings) {
         ++sightings;
         ++codes[sighting.tones];
       }
+      const auto named = [&](const BeaconNamer& namer) {
+        namer.name(seen, beacons, {}, {}, *camera, RigidTransform::Identity(), std::nullopt);
+        return std::count_if(seen.sightings.begin(), seen.sightings.end(), [](const auto& s) { return s.beacon; });
+      };
+      named_alone += named(alone);
+      named_heard += named(heard);
       if (i % 60 == 0) {
         for (const Light& light : scene.lights) lamps_in_view += camera->contains(light.pixel(t)) ? 60 : 0;
       }
@@ -86,6 +103,26 @@ struct HallOfLamps {
 
  private:
   using SeenFrom = std::function<Eigen::Vector2d(double, const Eigen::Vector3d&)>;
+
+  /// A site that uses every code of one to three tones, each once.
+  static std::vector<Beacon> one_of_each_code() {
+    std::vector<Beacon> beacons;
+    const auto tones = static_cast<int>(kPlanTones_hz.size());
+    const auto add = [&](ToneSet code) {
+      Beacon beacon;
+      beacon.id = BeaconId{static_cast<std::uint32_t>(beacons.size() + 1)};
+      beacon.tones = code;
+      beacons.push_back(beacon);
+    };
+    for (int a = 0; a < tones; ++a) {
+      add({a});
+      for (int b = a + 1; b < tones; ++b) {
+        add({a, b});
+        for (int c = b + 1; c < tones; ++c) add({a, b, c});
+      }
+    }
+    return beacons;
+  }
 
   std::function<double(double)> mains_flicker(double mean, double depth, Noise& random) const {
     const double hz = 2 * mains_hz * (1 + random.uniform(-0.002, 0.002)), phase = random.uniform(0, 1);

@@ -197,6 +197,7 @@ struct DarkAndHidden {
   bool motion_input = true;
   int hidden_frames = 10;
   double light = 300;
+  ToneSet back = {1, 4};  ///< the code of what comes back: another beacon, perhaps
 
   std::optional<int> frames_until_seen, frames_until_back;
   int last_ghost_frame = 0;  ///< the last frame after the hiding in which it is still reported; 0: none
@@ -214,10 +215,15 @@ struct DarkAndHidden {
     const double row = scene.random().uniform(30, 70);
     const double speed_px_s = speed_px * kPlanRate_hz;
     const auto place = [=](double t) { return Eigen::Vector2d(600 - speed_px_s * t, row); };
+    const ToneSet own = {1, 4};
     const auto light_on = beacon(scene.random(), light, {8, 14}, false);
+    std::vector<double> back_hz;
+    for (const int tone : back.indices()) back_hz.push_back(kPlanTones_hz[static_cast<std::size_t>(tone)]);
+    const auto light_back = back == own ? light_on : beacon(scene.random(), light, back_hz, false);
     scene.lights = {{place, [&](double t) {
                        const auto frame = static_cast<int>(std::lround(t * kPlanRate_hz));
-                       return frame < kOn || (frame >= kHidden && frame < shown) ? 0.0 : light_on(t);
+                       if (frame < kOn || (frame >= kHidden && frame < shown)) return 0.0;
+                       return frame < shown ? light_on(t) : light_back(t);
                      }}};
     BeaconDetector detector = detector_for(scene, plan_params(), pinhole(scene.width_px, scene.height_px, kFocal_px));
     detector.set_plane_height(kHeight_m);
@@ -230,7 +236,7 @@ struct DarkAndHidden {
       }
       const auto sightings = detect(detector, image, motion);
       const bool seen = nearest(sightings, place(t), 4);
-      for (const Sighting& sighting : sightings) wrong += sighting.tones != ToneSet{1, 4};
+      for (const Sighting& sighting : sightings) wrong += sighting.tones != (i < shown ? own : back);
       if (i < kHidden) {
         if (seen && !frames_until_seen) frames_until_seen = i - kOn + 1;
         gaps += !seen && frames_until_seen;

@@ -22,7 +22,7 @@ TEST_P(HallOfLamps, HasNoBeacon) {
     hall.speed_m_s = speed_m_s;
     hall.mains_hz = speed_m_s == 1 ? 60 : 50;
     hall.run(2.5, 1);
-    EXPECT_EQ(hall.named(), 0) << test::kAllLamps.at(hall.lamps) << " at " << speed_m_s << " m/s";
+    EXPECT_EQ(hall.named_alone, 0) << test::kAllLamps.at(hall.lamps) << " at " << speed_m_s << " m/s";
   }
 }
 

@@ -46,13 +46,13 @@ TEST(HandHeld, CameraAlone) {
   MotionCase motion;
   motion.path = Path::kHandHeld;
   motion.motion_input = false;
-  for (const double speed : {1., 4.}) {
-    motion.speed = speed;
-    expect_within_limits(motion, std::to_string(speed) + " px a frame");
+  for (const bool square : {false, true}) {
+    motion.square = square;
+    for (const double speed : {1., 3., 5.}) {
+      motion.speed = speed;
+      expect_within_limits(motion, std::to_string(speed) + (square ? " px a frame, on-off" : " px a frame"));
+    }
   }
-  motion.square = true;
-  motion.speed = 1;
-  expect_within_limits(motion, "on-off, 1 px a frame");
 }
 
 TEST(Frames, MayJitterAndGetLost) {
@@ -96,6 +96,23 @@ TEST(Follow, FirstSightingGhostsAndReturn) {
           EXPECT_EQ(trial.gaps, 0) << what;
           EXPECT_EQ(trial.wrong, 0) << what;
         }
+      }
+    }
+  }
+}
+
+TEST(Follow, WhatTakesTheHiddenOnesPlaceIsReadAsItself) {
+  constexpr int kN = 30;
+  for (const ToneSet& back : {ToneSet{1, 4, 6}, ToneSet{1, 6}, ToneSet{1}}) {
+    for (const double light : {50., 300.}) {
+      for (const int hidden : {5, 15}) {
+        test::DarkAndHidden trial;
+        trial.back = back;
+        trial.light = light;
+        trial.hidden_frames = hidden;
+        trial.run(1);
+        EXPECT_EQ(trial.wrong, 0) << back.size() << " tones, " << light << " grey levels, hidden for " << hidden;
+        EXPECT_LE(trial.frames_until_back.value_or(999), kN + 5);
       }
     }
   }

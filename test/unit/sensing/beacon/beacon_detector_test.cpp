@@ -159,6 +159,61 @@ TEST(BeaconDetector, ALampThatShimmersInATonesRhythmIsNoBeacon) {
   }
 }
 
+/// How many of four windows' frames show the light as a beacon of this code, and as any other.
+struct Readings {
+  int right = 0, wrong = 0;
+};
+constexpr int kFramesLeft = 4 * 30 - (30 + 5);  ///< once a beacon must have been seen
+Readings readings(const std::function<double(double)>& light, ToneSet code, int window = 30) {
+  BlobScene scene;
+  scene.lights = {{at(60.3, 50.8), light}};
+  auto detector = detector_for(scene, kTable, window);
+  Readings count;
+  for (int frame = 0; frame < 4 * window; ++frame) {
+    const auto result = detector.process(scene.render(frame / 60.0), CameraMotion());
+    for (const Sighting& sighting : result->sightings) ++(sighting.tones == code ? count.right : count.wrong);
+  }
+  return count;
+}
+
+TEST(BeaconDetector, WhatTwinklesOnRibsAtATonesRateIsNoBeacon) {
+  const ToneSet none;
+  const auto rib = [](double t, double sharpness) {
+    return std::pow(0.5 - 0.5 * std::cos(2 * kPi * 8 * t), sharpness);
+  };
+  for (const double sharpness : {1.5, 2.0, 4.0})
+    EXPECT_EQ(readings([&](double t) { return 700 * rib(t, sharpness); }, none).wrong, 0) << sharpness;
+  const auto uneven = [&](double t) { return (static_cast<int>(8 * t) % 2 == 0 ? 700 : 350) * rib(t, 1); };
+  EXPECT_EQ(readings(uneven, none).wrong, 0);
+  const auto flat = [&](double t) { return (static_cast<int>(8 * t) % 2 == 0 ? 700 : 350) * (rib(t, 1) > 0.5); };
+  EXPECT_EQ(readings(flat, none).wrong, 0);
+}
+
+TEST(BeaconDetector, ABeaconThatIsPassedMayGrowBrighter) {
+  const auto growing = [](const std::function<double(double)>& beacon) {
+    return [=](double t) { return std::exp(0.8 * t) * beacon(t); };
+  };
+  for (const auto& beacon : {tones(100, {8}), test::blinking(100, 8, 0.2)}) {
+    const Readings count = readings(growing(beacon), {1});
+    EXPECT_GE(count.right, kFramesLeft);
+    EXPECT_EQ(count.wrong, 0);
+  }
+  EXPECT_GE(readings(growing(tones(100, {8, 14})), {1, 4}).right, kFramesLeft);
+}
+
+TEST(BeaconDetector, AnOnOffBeaconThatPausesToSendItsFrameKeepsItsCode) {
+  const auto code = test::blinking(300, 8, 0.2);
+  const auto paused = [=](double t) { return std::fmod(t, 0.8) < 0.025 ? 300 : code(t); };
+  const Readings count = readings(paused, {1});
+  EXPECT_GE(count.right, kFramesLeft);
+  EXPECT_EQ(count.wrong, 0);
+}
+
+TEST(BeaconDetector, AWindowOfFiveFramesCannotProveTwoTones) {
+  const Readings count = readings(tones(300, {12, 24}), {2, 6}, 5);
+  EXPECT_EQ(count.right + count.wrong, 0);
+}
+
 TEST(BeaconDetector, ABeaconThatPausesToSendItsFrameKeepsItsCodeInMotion) {
   // Eight slots of 25 ms: at 30 frames/s each sixth frame shows the mean (optical_link.md, section 2).
   constexpr int kWindow = 15;
