@@ -180,7 +180,9 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
                                           : camera_motion.T_then_now(window_.at(window_.newest()).stamp, image.stamp));
   bank_.set(window_.newest(), image.stamp);
   choose_lags();
-  scan_.push(image);
+  tracker_.predict(window_, motion_, !camera_motion.known());
+  const bool stands = !image_moves();
+  scan_.push(image, stands);
   const PixelNoise noise{scan_.pixel_variance(),
                          static_cast<float>(params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0))};
   // What was not used while the window filled up, or the image moved, is there for what waits.
@@ -193,7 +195,7 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
   if (!window_.full()) return result;
   bank_.update();
   const double limit = power_threshold(image);
-  if (!image_moves()) discover(limit, noise);
+  if (stands) discover(limit, noise);
   for (BlobTrack& track : tracker_) {
     const auto sighting = reader_.read(track, window_, bank_, limit, noise.dark_variance);
     if (!sighting || !camera_->contains(sighting->pixel)) continue;

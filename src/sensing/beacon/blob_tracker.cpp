@@ -151,10 +151,13 @@ void BlobTracker::look_back(BlobTrack& track, const FrameWindow& window, const I
   }
 }
 
-void BlobTracker::follow(FrameWindow& window, const Changes& risen, const ImageMotion& motion, bool alone,
-                         const PixelNoise& noise) {
+void BlobTracker::predict(FrameWindow& window, const ImageMotion& motion, bool alone) {
   if (!alone) common_motion_.forget();
   common_motion_.predict(window, motion);
+}
+
+void BlobTracker::follow(FrameWindow& window, const Changes& risen, const ImageMotion& motion, bool alone,
+                         const PixelNoise& noise) {
   taken_.assign(risen.size(), false);
   const auto mark = [&](const BlobTrack& track) {
     for (std::size_t i = 0; i < risen.size(); ++i)

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "change_kernel.hpp"
+#include "prefetch.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr int kTileRows = 16;       ///< a tile is one segment wide and 16 cells high
-constexpr int kBands = 2;           ///< a row's energy is renewed in each second frame
+constexpr int kMarksAtOnce = 8;     ///< looked through
 constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
 constexpr float kFirstLimit = 4.5f;  ///< of a spot's energy, sigmas
 constexpr float kLeastLimit = 2.5f;
-constexpr float kPeakShare = 0.75f;                       ///< of the limit, that the spot's strongest cell must reach
+constexpr float kPeakShare = 0.85f;                       ///< of the limit, that the spot's strongest cell must reach
 constexpr float kExcessForgets = 0.005f;                  ///< a frame, of what a passing disturbance has raised
 constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain adds: a share, and at least
 constexpr int kNoiseSample = 256;                         ///< cells a frame
@@ -38,10 +40,25 @@ double clipped_mean(int count, double variance, Next&& next_square) {
   return sum / count / kLeft;
 }
 
+/// Calls `visit(i)` for each mark that has `bit`, `count` being a multiple of kMarksAtOnce. Nearly all are 0.
+template <class Visit>
+void for_each_marked(const std::uint8_t* marks, int count, std::uint8_t bit, Visit&& visit) {
+  for (int begin = 0; begin < count; begin += kMarksAtOnce) {
+    std::uint64_t all;
+    static_assert(sizeof(all) == kMarksAtOnce, "all marks are looked at");
+    std::memcpy(&all, marks + begin, sizeof(all));
+    if (all == 0) continue;
+    for (int i = begin; i < begin + kMarksAtOnce; ++i)
+      if (marks[i] & bit) visit(i);
+  }
+}
+
+bool is_larger(const ChangeScan::Change& a, const ChangeScan::Change& b) { return a.size > b.size; }
+
 }  // namespace
 
 ChangeScan::ChangeScan(int window_frames)
-    : forget_bits_(std::clamp(static_cast<int>(std::lround(std::log2(0.5 * window_frames / kBands))), 1, 6)),
+    : forget_bits_(std::clamp(static_cast<int>(std::lround(std::log2(0.5 * window_frames))), 1, 6)),
       // The energy of a 16-bit lane that is always clipped: clip^2 2^bits, below 2^15.
       clip_(static_cast<int>(std::sqrt(32767.0 / (1 << forget_bits_)))) {
   const double unit = clip_ / kReachSigmas;  // what one sigma of a difference is scaled to
@@ -79,25 +96,24 @@ void ChangeScan::start(const Image& image, Planes<Lane>& planes) {
       static_cast<std::size_t>(segments_) * static_cast<std::size_t>((rows_ + kTileRows - 1) / kTileRows);
   planes.limit.assign(tiles, 0);
   tile_limit_.assign(tiles, kFirstLimit);
-  flags_.assign(static_cast<std::size_t>(segments_ * rows_), 0);
+  flag_stride_ = (segments_ + kMarksAtOnce - 1) / kMarksAtOnce * kMarksAtOnce;
+  flags_.assign(static_cast<std::size_t>(flag_stride_ * rows_), 0);
   cell_variance_ = 0;
 }
 
-void ChangeScan::push(const Image& image) {
+void ChangeScan::push(const Image& image, bool stands) {
   if (image.bits == 8) {
-    scan<std::uint8_t>(image, narrow_);
+    scan<std::uint8_t>(image, stands, narrow_);
   } else {
-    scan<std::uint16_t>(image, wide_);
+    scan<std::uint16_t>(image, stands, wide_);
   }
 }
 
 template <class Pixel, class Lane>
-void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
+void ChangeScan::scan(const Image& image, bool stands, Planes<Lane>& planes) {
   if (frames_ == 0 || bits_ != image.bits || columns_ != image.width_px / 2 || rows_ != image.height_px / 2)
     start(image, planes);
-  risen_.clear();
-  restless_.clear();
-  const auto lag = std::min(frames_, static_cast<std::uint64_t>(lags_[frames_ / kBands % 2]));
+  const auto lag = std::min(frames_, static_cast<std::uint64_t>(lags_[frames_ % 2]));
   auto& now = planes.cells[frames_ % (kMaxLag + 1)];
   const auto& before = planes.cells[(frames_ + kMaxLag + 1 - lag) % (kMaxLag + 1)];
 
@@ -108,28 +124,24 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
   units.multiplier = std::clamp(units.multiplier, 1, std::max(1, (clip_ << ChangeUnits::kShift) / units.reach));
   units.risen = static_cast<int>(kRisenSigmas * sigma);
   units.forget_bits = forget_bits_;
-  // Each tile's limit sinks by as much in a frame as its share of the budget raises it.
-  const float sink = kLimitStep * static_cast<float>(budget_) / static_cast<float>(tile_limit_.size());
-  for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
-    const float excess = std::max(0.0f, tile_limit_[i] - kFirstLimit);
-    tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink - kExcessForgets * excess);
-    const float peak = energy_mean_ + kPeakShare * tile_limit_[i] * energy_sigma_;
-    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, peak));
-  }
+  if (stands) lower_limits(planes);
 
   const auto kernel = kernel_for(Lane{});
   const int whole = image.width_px / (2 * kSegment);
   for (int row = 0; row < rows_; ++row) {
+    if (row + 2 < rows_) {
+      prefetch(image.row<Pixel>(2 * row + 4), image.width_px);
+      prefetch(image.row<Pixel>(2 * row + 5), image.width_px);
+    }
     const auto first = static_cast<std::size_t>(row * segments_) * kSegment;
-    ChangeRow<Pixel, Lane> in{
-        image.row<Pixel>(2 * row),
-        image.row<Pixel>(2 * row + 1),
-        before.data() + first,
-        now.data() + first,
-        static_cast<std::uint64_t>(row) % kBands == frames_ % kBands ? planes.energy.data() + first : nullptr,
-        planes.limit.data() + tile(0, row),
-        flags_.data() + row * segments_,
-        whole};
+    ChangeRow<Pixel, Lane> in{image.row<Pixel>(2 * row),
+                              image.row<Pixel>(2 * row + 1),
+                              before.data() + first,
+                              now.data() + first,
+                              stands ? planes.energy.data() + first : nullptr,
+                              planes.limit.data() + tile(0, row),
+                              flags_.data() + row * flag_stride_,
+                              whole};
     kernel(in, units);
     if (whole == segments_) continue;
     // What is left of the row, filled up with its last pixel.
@@ -145,12 +157,25 @@ void ChangeScan::scan(const Image& image, Planes<Lane>& planes) {
            units);
   }
   ++frames_;
+  risen_.clear();
   if (lag == 0) {
     std::fill(planes.energy.begin(), planes.energy.end(), static_cast<Lane>(energy_mean_));
     return;
   }
   measure_noise(now, before);
-  collect(planes, now, before);
+  collect_risen(now, before);
+}
+
+template <class Lane>
+void ChangeScan::lower_limits(Planes<Lane>& planes) {
+  // Each tile's limit sinks by as much in a frame as its share of the budget raises it.
+  const float sink = kLimitStep * static_cast<float>(budget_) / static_cast<float>(tile_limit_.size());
+  for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
+    const float excess = std::max(0.0f, tile_limit_[i] - kFirstLimit);
+    tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink - kExcessForgets * excess);
+    const float peak = energy_mean_ + kPeakShare * tile_limit_[i] * energy_sigma_;
+    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, peak));
+  }
 }
 
 template <class Lane>
@@ -191,49 +216,66 @@ float ChangeScan::spot_energy(const Lane* cell, std::ptrdiff_t stride) const {
   return most;
 }
 
-template <class Lane>
-void ChangeScan::collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before) {
-  const int stride = segments_ * kSegment;
-  const auto difference = [&](std::ptrdiff_t i) { return static_cast<int>(now.data()[i]) - before.data()[i]; };
-  const auto energy = [&](std::ptrdiff_t i) { return static_cast<int>(planes.energy.data()[i]); };
+template <class Value, class Limit, class Found>
+void ChangeScan::for_each_peak(ChangeFlag flag, const Value& value, const Limit& limit, Found&& found) const {
+  const std::ptrdiff_t stride = segments_ * kSegment;
   // Of two equal neighbours the first one counts.
-  const auto is_peak = [&](std::ptrdiff_t i, auto&& value) {
-    const int here = value(i);
-    for (const std::ptrdiff_t d : {-stride - 1, -stride, -stride + 1, -1})
+  const auto is_peak = [&](std::ptrdiff_t i) {
+    const auto here = value(i);
+    for (const std::ptrdiff_t d : {-stride - 1, -stride, -stride + 1, std::ptrdiff_t{-1}})
       if (value(i + d) >= here) return false;
-    for (const std::ptrdiff_t d : {stride + 1, stride, stride - 1, 1})
+    for (const std::ptrdiff_t d : {stride + 1, stride, stride - 1, std::ptrdiff_t{1}})
       if (value(i + d) > here) return false;
     return true;
   };
-  const float sigma = static_cast<float>(std::sqrt(cell_variance_));
-  const auto risen_limit = static_cast<Lane>(kRisenSigmas * sigma);
   for (int row = 1; row < rows_ - 1; ++row) {
-    const std::uint8_t* flags = flags_.data() + row * segments_;
-    for (int segment = 0; segment < segments_; ++segment) {
-      if (flags[segment] == 0) continue;
-      const Lane limit = planes.limit[tile(segment * kSegment, row)];
-      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * stride + segment * kSegment;
-      std::uint8_t hits[kSegment];
-      for (int c = 0; c < kSegment; ++c) {  // plain arithmetic: becomes vector code
-        const Lane rise = static_cast<Lane>(now.data()[first + c] - before.data()[first + c]);
-        hits[c] = static_cast<std::uint8_t>((planes.energy.data()[first + c] > limit ? kFlagRestless : 0) |
-                                            (rise > risen_limit ? kFlagRisen : 0));
-      }
-      const int begin = segment == 0 ? 1 : 0, end = std::min(kSegment, columns_ - 1 - segment * kSegment);
-      for (int c = begin; c < end; ++c) {
-        if (hits[c] == 0) continue;
-        const Eigen::Vector2i pixel(2 * (segment * kSegment + c), 2 * row);
-        if ((hits[c] & kFlagRisen) && is_peak(first + c, difference))
-          risen_.push_back({pixel, static_cast<float>(difference(first + c)) / sigma});
-        if (!(hits[c] & kFlagRestless) || !is_peak(first + c, energy)) continue;
-        const float size = spot_energy(planes.energy.data() + first + c, stride);
-        if (size > tile_limit_[tile(segment * kSegment, row)]) restless_.push_back({pixel, size});
-      }
-    }
+    for_each_marked(flags_.data() + row * flag_stride_, flag_stride_, flag, [&](int segment) {
+      const int column = segment * kSegment, right = columns_ - 1 - column;
+      const std::ptrdiff_t first = row * stride + column;
+      const auto least = limit(tile(column, row));
+      std::uint8_t above[kSegment];
+      for (int c = 0; c < kSegment; ++c) above[c] = value(first + c) > least;  // plain arithmetic: becomes vector code
+      for_each_marked(above, kSegment, 1, [&](int c) {
+        if (column + c > 0 && c < right && is_peak(first + c))
+          found(Eigen::Vector2i(2 * (column + c), 2 * row), first + c);
+      });
+    });
   }
-  const auto larger = [](const Change& a, const Change& b) { return a.size > b.size; };
-  std::sort(risen_.begin(), risen_.end(), larger);
-  std::sort(restless_.begin(), restless_.end(), larger);
+}
+
+template <class Lane>
+void ChangeScan::collect_risen(const Plane<Lane>& now, const Plane<Lane>& before) {
+  const float sigma = static_cast<float>(std::sqrt(cell_variance_));
+  const auto limit = static_cast<Lane>(kRisenSigmas * sigma);
+  const auto difference = [&](std::ptrdiff_t i) { return static_cast<Lane>(now.data()[i] - before.data()[i]); };
+  for_each_peak(
+      kFlagRisen, difference, [=](std::size_t) { return limit; },
+      [&](const Eigen::Vector2i& pixel, std::ptrdiff_t i) {
+        risen_.push_back({pixel, static_cast<float>(difference(i)) / sigma});
+      });
+  std::sort(risen_.begin(), risen_.end(), is_larger);
+}
+
+template <class Lane>
+void ChangeScan::collect_restless(const Planes<Lane>& planes) {
+  for_each_peak(
+      kFlagRestless, [&](std::ptrdiff_t i) { return planes.energy.data()[i]; },
+      [&](std::size_t tile) { return planes.limit[tile]; },
+      [&](const Eigen::Vector2i& pixel, std::ptrdiff_t i) {
+        const float size = spot_energy(planes.energy.data() + i, segments_ * kSegment);
+        if (size > tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)]) restless_.push_back({pixel, size});
+      });
+  std::sort(restless_.begin(), restless_.end(), is_larger);
+}
+
+const std::vector<ChangeScan::Change>& ChangeScan::restless() {
+  restless_.clear();
+  if (bits_ == 8) {
+    collect_restless(narrow_);
+  } else {
+    collect_restless(wide_);
+  }
+  return restless_;
 }
 
 void ChangeScan::settle(const Eigen::Vector2i& pixel, bool found) {

@@ -9,11 +9,18 @@ void CommonMotion::predict(FrameWindow& window, const ImageMotion& image) {
   window.set_motion(newest, ego_.T_before_now(window.interval_s(newest), image.plane_height_m));
 }
 
+void CommonMotion::linearize(const Tracks& tracks, std::size_t count, const ImageMotion& image) {
+  jacobians_.clear();
+  for (std::size_t i = 0; i < count; ++i)
+    jacobians_.push_back(EgoMotion::J_flow_twist(tracks[i].path().pixel(), *image.camera));
+}
+
 void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
   constexpr int kHits = 3;
   if (!ego_.known()) return;
   const double interval_s = window.interval_s(window.newest());
   std::size_t resting = 0;
+  linearize(tracks, count, image);
   flows_.clear();
   for (std::size_t i = 0; i < count; ++i) {
     const PathFilter& path = tracks[i].path();
@@ -21,23 +28,22 @@ void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window
     if (path.still() || !tracks[i].seen() || tracks[i].hits() < kHits) continue;
     const double variance = path.variance() + tracks[i].seen_variance() + path.model_variance();
     flows_.push_back(
-        {path.pixel(), (tracks[i].seen_at() - path.pixel()) / interval_s, variance / (interval_s * interval_s)});
+        {jacobians_[i], (tracks[i].seen_at() - path.pixel()) / interval_s, variance / (interval_s * interval_s)});
   }
-  const EgoMotion::Twist before = ego_.twist(), change = ego_.refine(flows_, *image.camera);
+  const EgoMotion::Twist before = ego_.twist(), change = ego_.refine(flows_);
   if (resting > flows_.size()) ego_.forget();
   for (std::size_t i = 0; i < count; ++i) {
     PathFilter& path = tracks[i].path();
     if (ego_.known()) {
-      const double variance = ego_.flow_variance(path.pixel(), *image.camera);
-      path.shift(EgoMotion::flow(change, path.pixel(), *image.camera) * interval_s, variance * interval_s * interval_s);
+      path.shift(jacobians_[i] * change * interval_s, ego_.flow_variance(jacobians_[i]) * interval_s * interval_s);
     } else {
-      path.hand_over(-EgoMotion::flow(before, path.pixel(), *image.camera));
+      path.hand_over(-jacobians_[i] * before);
     }
   }
   if (ego_.known()) window.set_motion(window.newest(), ego_.T_before_now(interval_s, image.plane_height_m));
 }
 
-int CommonMotion::gather_velocities(const Tracks& tracks, std::size_t count, const ImageMotion& image) {
+int CommonMotion::gather_velocities(const Tracks& tracks, std::size_t count) {
   constexpr int kHits = 6;               // after which a velocity is worth its variance
   constexpr double kHeightShare = 0.15;  // by which heights make a blob's velocity differ, one sigma
   int resting = 0;
@@ -47,32 +53,33 @@ int CommonMotion::gather_velocities(const Tracks& tracks, std::size_t count, con
     resting += path.still();
     if (path.still() || !tracks[i].seen() || tracks[i].hits() < kHits) continue;
     Eigen::Vector2d whole = path.velocity_px_s();
-    if (ego_.known()) whole += flow(path.pixel(), image);
+    if (ego_.known()) whole += jacobians_[i] * ego_.twist();
     const double sigma = 1 + kHeightShare * whole.norm();
-    flows_.push_back({path.pixel(), path.velocity_px_s(), path.velocity_variance() + sigma * sigma});
+    flows_.push_back({jacobians_[i], path.velocity_px_s(), path.velocity_variance() + sigma * sigma});
   }
   return resting;
 }
 
 void CommonMotion::learn(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
-  const int resting = gather_velocities(tracks, count, image);
+  linearize(tracks, count, image);
+  const int resting = gather_velocities(tracks, count);
   if (!ego_.known()) {
     if (resting <= static_cast<int>(flows_.size())) start(tracks, count, window, image);
     return;
   }
-  const EgoMotion::Twist change = ego_.absorb(flows_, *image.camera);
+  const EgoMotion::Twist change = ego_.absorb(flows_);
   for (std::size_t i = 0; i < count; ++i) {
     PathFilter& path = tracks[i].path();
-    path.hand_over(EgoMotion::flow(change, path.pixel(), *image.camera));
+    path.hand_over(jacobians_[i] * change);
     path.forget_acceleration();
   }
 }
 
 void CommonMotion::start(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image) {
-  if (!ego_.start(flows_, *image.camera, window.interval_s(window.newest()))) return;
+  if (!ego_.start(flows_, window.interval_s(window.newest()))) return;
   for (std::size_t i = 0; i < count; ++i) {
     PathFilter& path = tracks[i].path();
-    path.hand_over(flow(path.pixel(), image));
+    path.hand_over(jacobians_[i] * ego_.twist());
   }
   // Before it was known the camera moved alike.
   for (int age = 0; age < window.size() - 1; ++age) {

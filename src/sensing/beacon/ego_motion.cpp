@@ -1,5 +1,6 @@
 #include "lodestar/sensing/beacon/ego_motion.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -34,38 +35,35 @@ EgoMotion::Jacobian EgoMotion::J_flow_twist(const Eigen::Vector2d& pixel, const 
   return J;
 }
 
-EgoMotion::Fit EgoMotion::fit(const std::vector<Flow>& flows, const CameraModel& camera, const Twist& sigma) {
+EgoMotion::Fit EgoMotion::fit(const std::vector<Flow>& flows, const Twist& sigma) {
   constexpr int kRounds = 4;
-  jacobians_.clear();
-  for (const Flow& flow : flows) jacobians_.push_back(J_flow_twist(flow.pixel, camera));
   Fit fit;
+  Eigen::Matrix<double, 6, 6> information;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix<double, 6, 6> information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+    information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
     Twist right = Twist::Zero();
     fit.agreeing = 0;
-    fit.cost = 0;
-    for (std::size_t i = 0; i < flows.size(); ++i) {
-      const Jacobian& J = jacobians_[i];
-      const double distance2 = (flows[i].px_s - J * fit.twist).squaredNorm() / flows[i].variance;
-      const double weight = (round == 0 ? 1 : 1 / (1 + distance2 / kGate)) / flows[i].variance;
-      information += weight * J.transpose() * J;
-      right += weight * J.transpose() * flows[i].px_s;
+    for (const Flow& flow : flows) {
+      const double distance2 = (flow.px_s - flow.J * fit.twist).squaredNorm() / flow.variance;
+      const double weight = (round == 0 ? 1 : 1 / (1 + distance2 / kGate)) / flow.variance;
+      information += weight * flow.J.transpose() * flow.J;
+      right += weight * flow.J.transpose() * flow.px_s;
       fit.agreeing += distance2 < kGate;
-      fit.cost += std::log1p(distance2 / kGate);
+      if (round == kRounds - 1) fit.cost += std::log1p(distance2 / kGate);
     }
-    fit.covariance = information.inverse();
-    fit.twist = fit.covariance * right;
+    fit.twist = information.ldlt().solve(right);
   }
+  fit.covariance = information.inverse();
   return fit;
 }
 
-bool EgoMotion::start(const std::vector<Flow>& flows, const CameraModel& camera, double interval_s) {
+bool EgoMotion::start(const std::vector<Flow>& flows, double interval_s) {
   constexpr double kLeastStepPx = 0.1;
   const auto count = static_cast<int>(flows.size());
   if (count < kLeastBlobs) return false;
   Fit best;
   for (const Twist& freedom : freedoms()) {
-    const Fit motion = fit(flows, camera, kFirstSigma * freedom);
+    const Fit motion = fit(flows, kFirstSigma * freedom);
     if (best.agreeing > 0 && motion.cost >= best.cost) continue;
     best = motion;
     freedom_ = freedom;
@@ -83,7 +81,7 @@ bool EgoMotion::start(const std::vector<Flow>& flows, const CameraModel& camera,
   return true;
 }
 
-EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows, const CameraModel& camera) {
+EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows) {
   constexpr int kPatience = 10;  // frames
   constexpr double kTrendGain = 0.4, kTrendFades = 0.02;
   double surprise = 0;
@@ -91,7 +89,7 @@ EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows, const CameraM
   surprise /= 2.0 * static_cast<double>(std::max<std::size_t>(1, flows.size()));
   step_sigma_ = std::clamp(step_sigma_ * (surprise > 2 ? 2.0 : surprise < 0.7 ? 0.9 : 1.0), kMinStep, kMaxStep);
 
-  const Fit change = fit(flows, camera, step_sigma_ * freedom_);
+  const Fit change = fit(flows, step_sigma_ * freedom_);
   const bool agreed = change.agreeing > 0 && 2 * change.agreeing >= static_cast<int>(flows.size());
   doubted_ = agreed ? 0 : doubted_ + 1;
   known_ = doubted_ <= kPatience;
@@ -105,9 +103,9 @@ EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows, const CameraM
   return change.twist;
 }
 
-EgoMotion::Twist EgoMotion::absorb(const std::vector<Flow>& flows, const CameraModel& camera) {
+EgoMotion::Twist EgoMotion::absorb(const std::vector<Flow>& flows) {
   constexpr double kShare = 0.3, kSigma = 0.3;
-  const Twist change = kShare * fit(flows, camera, kSigma * freedom_).twist;
+  const Twist change = kShare * fit(flows, kSigma * freedom_).twist;
   twist_ += change;
   return change;
 }
@@ -119,13 +117,6 @@ RigidTransform EgoMotion::T_before_now(double interval_s, double plane_height_m)
   return T;
 }
 
-double EgoMotion::flow_variance(const Eigen::Vector2d& pixel, const CameraModel& camera) const {
-  const Jacobian J = J_flow_twist(pixel, camera);
-  return 0.5 * (J * covariance_ * J.transpose()).trace();
-}
-
-Eigen::Vector2d EgoMotion::flow(const Twist& twist, const Eigen::Vector2d& pixel, const CameraModel& camera) {
-  return J_flow_twist(pixel, camera) * twist;
-}
+double EgoMotion::flow_variance(const Jacobian& J) const { return 0.5 * (J * covariance_ * J.transpose()).trace(); }
 
 }  // namespace lodestar

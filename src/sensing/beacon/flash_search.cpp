@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lodestar/sensing/beacon/spot_filter.hpp"
+#include "prefetch.hpp"
 
 namespace lodestar {
 namespace {
@@ -18,6 +19,13 @@ float block_sum(const Image& image, const Eigen::Vector2i& pixel) {
     for (int u = 0; u < kBlockSide; ++u) sum += row[u];
   }
   return static_cast<float>(sum);
+}
+
+void prefetch_block(const Image& image, const Eigen::Vector2i& pixel) {
+  for (int v = 0; v < kBlockSide; ++v) {
+    const std::uint8_t* row = image.row<std::uint8_t>(pixel.y() - 1 + v);
+    prefetch(row + (pixel.x() - 1) * (image.bits / 8), 1);
+  }
 }
 
 /// Centre of what clips around `pixel` in any frame: the light of a saturated spot changes on its rim only.
@@ -62,6 +70,7 @@ std::optional<FlashSearch::Flash> FlashSearch::find(const FrameWindow& window, c
                                                     const Eigen::Vector2i& pixel, double power_threshold,
                                                     const PixelNoise& noise) {
   constexpr double kBlockShare = 0.4, kSpotShare = 0.6;
+  for (int slot = 0; slot < window.capacity(); ++slot) prefetch_block(window.at(slot), pixel);
   for (int slot = 0; slot < window.capacity(); ++slot) {
     const Image& image = window.at(slot);
     light_[slot] = image.bits == 8 ? block_sum<std::uint8_t>(image, pixel) : block_sum<std::uint16_t>(image, pixel);

@@ -14,20 +14,27 @@ using Row = Eigen::Array<float, Patch::kSide, 1>;
 struct Profile {
   Row share, by_centre, by_sigma;
 
-  Profile(double centre, double sigma) {
-    double cdf_before = 0, pdf_before = 0, z_before = 0;
-    for (int i = 0; i <= Patch::kSide; ++i) {
-      const double z = (i - Patch::kHalf - 0.5 - centre) / sigma;
-      const double cdf = 0.5 * std::erfc(-z / std::sqrt(2.0)), pdf = std::exp(-0.5 * z * z) / std::sqrt(2.0 * kPi);
-      if (i > 0) {
-        share[i - 1] = static_cast<float>(cdf - cdf_before);
-        by_centre[i - 1] = static_cast<float>((pdf_before - pdf) / sigma);
-        by_sigma[i - 1] = static_cast<float>((pdf_before * z_before - pdf * z) / sigma);
-      }
-      cdf_before = cdf;
-      pdf_before = pdf;
-      z_before = z;
-    }
+  Profile(float centre, float sigma) {
+    using Edges = Eigen::Array<float, Patch::kSide + 3, 1>;  // the columns' edges, and what makes them whole vectors
+    const Edges z = (Edges::LinSpaced(0, Patch::kSide + 2) - (Patch::kHalf + 0.5f) - centre) / sigma;
+    const Edges bell = (-0.5f * z.square()).exp();
+    // The integral of the bell, to 1.5e-7: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26.
+    const Edges t = 1 / (1 + 0.3275911f * std::sqrt(0.5f) * z.abs());
+    const Edges tail =
+        0.5f * bell * t *
+        (0.254829592f + t * (-0.284496736f + t * (1.421413741f + t * (-1.453152027f + t * 1.061405429f))));
+    const Edges below = (z > 0).select(1 - tail, tail);
+    const Edges density = bell * static_cast<float>(1 / std::sqrt(2 * kPi));
+    const Edges moment = density * z;
+    share = difference(below);
+    by_centre = -difference(density) / sigma;
+    by_sigma = -difference(moment) / sigma;
+  }
+
+ private:
+  template <class Edges>
+  static Row difference(const Edges& at) {
+    return at.template segment<Patch::kSide>(1) - at.template segment<Patch::kSide>(0);
   }
 };
 
@@ -87,7 +94,7 @@ Eigen::Vector2d Patch::centroid() const {
 }
 
 void SpotFilter::design(const Eigen::Vector2d& place, const SpotShape& shape) {
-  const Profile u(place.x(), shape.sigma_px), v(place.y(), shape.sigma_px);
+  const Profile u(static_cast<float>(place.x()), shape.sigma_px), v(static_cast<float>(place.y()), shape.sigma_px);
   Eigen::Array<float, Patch::kPixels, 4> model;
   Patch::Array column, second;
   outer(v.share, u.share, column);

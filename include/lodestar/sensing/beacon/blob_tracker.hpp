@@ -19,6 +19,10 @@ class BlobTracker {
   /// @param max_blobs tracks that are kept; their memory is taken once
   BlobTracker(int window_frames, int max_blobs);
 
+  /// For a camera `alone`: what the blobs say of its motion goes into the window's newest frame, before that is looked
+  /// at.
+  void predict(FrameWindow& window, const ImageMotion& motion, bool alone);
+
   /// Follows all blobs into the window's newest frame, starts those that `risen` shows, and drops those that left the
   /// image, have not been seen for long, or run along with another.
   /// @param alone nothing else says how the camera moves: what the blobs say goes into the window

@@ -9,12 +9,14 @@
 
 namespace lodestar {
 
+enum ChangeFlag : std::uint8_t;
+
 /// The one pass over all bytes of a frame: where does the image change?
 ///
 /// Light is summed over cells of 2 x 2 pixels. A cell's difference d to the frame `lag` before, in units of its noise,
-/// is clipped, squared and summed with forgetting: E += d^2 - E / 2^k, for half of the rows in turn. Dark ceiling,
-/// steady lamps and sun leave noise; anything that flashes or moves does not. All numbers are integers, so every
-/// instruction set gives the same result.
+/// is clipped, squared and summed with forgetting: E += d^2 - E / 2^k. Dark ceiling, steady
+/// lamps and sun leave noise; anything that flashes or moves does not. All numbers are integers, so every instruction
+/// set gives the same result.
 class ChangeScan {
  public:
   static constexpr int kMaxLag = 3;
@@ -25,7 +27,8 @@ class ChangeScan {
   /// Lags that take turns, 1 to kMaxLag: a tone that one of them does not show (f lag / fs whole) the other does.
   void set_lags(int first, int second);
 
-  void push(const Image& image);
+  /// @param stands the image does not move; else nothing is to be found in place, and the energy is left as it is
+  void push(const Image& image, bool stands = true);
   void clear();
 
   struct Change {
@@ -36,7 +39,7 @@ class ChangeScan {
   const std::vector<Change>& risen() const { return risen_; }
   /// Cells whose energy is above their neighbours' and, alone or with those that a spot on its border shines on, passes
   /// the limit. Strongest first.
-  const std::vector<Change>& restless() const { return restless_; }
+  const std::vector<Change>& restless();
 
   /// Something was found at this pixel, or nothing: both set the energy around it to that of noise. Nothing raises the
   /// limit of its tile, so that a restless surface (sun, shot noise of a lamp) costs no more than its share.
@@ -65,7 +68,7 @@ class ChangeScan {
   };
 
   template <class Pixel, class Lane>
-  void scan(const Image& image, Planes<Lane>& planes);
+  void scan(const Image& image, bool stands, Planes<Lane>& planes);
   template <class Lane>
   void start(const Image& image, Planes<Lane>& planes);
   template <class Lane>
@@ -75,7 +78,14 @@ class ChangeScan {
   template <class Lane>
   float spot_energy(const Lane* cell, std::ptrdiff_t stride) const;
   template <class Lane>
-  void collect(const Planes<Lane>& planes, const Plane<Lane>& now, const Plane<Lane>& before);
+  void lower_limits(Planes<Lane>& planes);
+  /// Calls `found(pixel, cell)` for the cells of flagged segments that pass their tile's limit and their neighbours.
+  template <class Value, class Limit, class Found>
+  void for_each_peak(ChangeFlag flag, const Value& value, const Limit& limit, Found&& found) const;
+  template <class Lane>
+  void collect_risen(const Plane<Lane>& now, const Plane<Lane>& before);
+  template <class Lane>
+  void collect_restless(const Planes<Lane>& planes);
   template <class Lane>
   void calm(Planes<Lane>& planes, const Eigen::Vector2i& cell);
   std::size_t tile(int column, int row) const;
@@ -83,7 +93,7 @@ class ChangeScan {
   int forget_bits_, clip_;
   float energy_mean_, energy_sigma_;  ///< of a dark cell
   int lags_[2] = {1, 2};
-  int columns_ = 0, rows_ = 0, segments_ = 0, bits_ = 0, budget_ = 0;
+  int columns_ = 0, rows_ = 0, segments_ = 0, flag_stride_ = 0, bits_ = 0, budget_ = 0;
   std::uint64_t frames_ = 0;
   double cell_variance_ = 0;  ///< of a cell's difference
   std::size_t sample_ = 0;

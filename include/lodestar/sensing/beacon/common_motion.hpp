@@ -16,7 +16,10 @@ class CommonMotion {
  public:
   using Tracks = std::vector<BlobTrack>;
 
-  explicit CommonMotion(int max_blobs) { flows_.reserve(static_cast<std::size_t>(max_blobs)); }
+  explicit CommonMotion(int max_blobs) {
+    flows_.reserve(static_cast<std::size_t>(max_blobs));
+    jacobians_.reserve(static_cast<std::size_t>(max_blobs));
+  }
 
   bool known() const { return ego_.known(); }
   void forget() { ego_.forget(); }
@@ -30,16 +33,19 @@ class CommonMotion {
 
   /// Velocity of the beacons' image at a pixel, px/s.
   Eigen::Vector2d flow(const Eigen::Vector2d& pixel, const ImageMotion& image) const {
-    return EgoMotion::flow(ego_.twist(), pixel, *image.camera);
+    return EgoMotion::J_flow_twist(pixel, *image.camera) * ego_.twist();
   }
 
  private:
+  /// How each track's image moves with the camera, from where the path has it now.
+  void linearize(const Tracks& tracks, std::size_t count, const ImageMotion& image);
   /// The velocities of the blobs that are seen, beside what is common. Returns how many rest.
-  int gather_velocities(const Tracks& tracks, std::size_t count, const ImageMotion& image);
+  int gather_velocities(const Tracks& tracks, std::size_t count);
   void start(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image);
 
   EgoMotion ego_;
   std::vector<EgoMotion::Flow> flows_;
+  std::vector<EgoMotion::Jacobian> jacobians_;  ///< one a track
 };
 
 }  // namespace lodestar

@@ -14,52 +14,51 @@ namespace lodestar {
 /// more than a few blobs tell. Weighted least squares with Cauchy's weights (P. J. Huber, Robust Statistics, 1981).
 class EgoMotion {
  public:
+  using Twist = Eigen::Matrix<double, 6, 1>;  ///< rad/s, and plane heights/s; camera coordinates
+
+  /// The velocity of the beacons' image at a pixel, px/s, by the twist; zero where the lens has no answer.
+  using Jacobian = Eigen::Matrix<double, 2, 6>;
+  static Jacobian J_flow_twist(const Eigen::Vector2d& pixel, const CameraModel& camera);
+
   /// What one blob says.
   struct Flow {
-    Eigen::Vector2d pixel;
+    Jacobian J;            ///< at its pixel
     Eigen::Vector2d px_s;  ///< its velocity (start), or what the motion so far leaves of it
     double variance;       ///< of each component, (px/s)^2
   };
-
-  using Twist = Eigen::Matrix<double, 6, 1>;  ///< rad/s, and plane heights/s; camera coordinates
 
   bool known() const { return known_; }
   const Twist& twist() const { return twist_; }
   void forget() { known_ = false; }
 
   /// From velocities. False where most of the blobs do not agree, or hardly move.
-  bool start(const std::vector<Flow>& flows, const CameraModel& camera, double interval_s);
+  bool start(const std::vector<Flow>& flows, double interval_s);
 
   /// A frame on, as the ones before let expect.
   void predict() { twist_ += trend_; }
 
   /// By what the newest frame shows beside the prediction; returns the change. Forgets the motion when most of the
   /// blobs have disagreed for some frames.
-  Twist refine(const std::vector<Flow>& flows, const CameraModel& camera);
+  Twist refine(const std::vector<Flow>& flows);
 
   /// Takes a share of what the blobs' own velocities have in common, lest they drift apart; returns it.
-  Twist absorb(const std::vector<Flow>& flows, const CameraModel& camera);
+  Twist absorb(const std::vector<Flow>& flows);
 
   /// Camera coordinates now to those `interval_s` ago.
   RigidTransform T_before_now(double interval_s, double plane_height_m) const;
 
-  /// Variance of flow() at a pixel after refine(), of each component, (px/s)^2.
-  double flow_variance(const Eigen::Vector2d& pixel, const CameraModel& camera) const;
-
-  /// Velocity that a twist gives the beacons' image at a pixel, px/s; zero where the lens has no answer.
-  static Eigen::Vector2d flow(const Twist& twist, const Eigen::Vector2d& pixel, const CameraModel& camera);
+  /// Variance of the flow after refine(), of each component, (px/s)^2.
+  double flow_variance(const Jacobian& J) const;
 
  private:
-  using Jacobian = Eigen::Matrix<double, 2, 6>;
   struct Fit {
     Twist twist = Twist::Zero();
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     int agreeing = 0;
     double cost = 0;
   };
-  static Jacobian J_flow_twist(const Eigen::Vector2d& pixel, const CameraModel& camera);
   /// @param sigma of each component before anything was seen
-  Fit fit(const std::vector<Flow>& flows, const CameraModel& camera, const Twist& sigma);
+  static Fit fit(const std::vector<Flow>& flows, const Twist& sigma);
 
   bool known_ = false;
   Twist twist_ = Twist::Zero(), trend_ = Twist::Zero();  ///< and its change from frame to frame
@@ -67,7 +66,6 @@ class EgoMotion {
   Eigen::Matrix<double, 6, 6> covariance_ = Eigen::Matrix<double, 6, 6>::Zero();  ///< of the newest step
   double step_sigma_ = 0;  ///< of what a frame brings beside the trend; follows what the blobs say
   int doubted_ = 0;
-  std::vector<Jacobian> jacobians_;  ///< scratch
 };
 
 }  // namespace lodestar
