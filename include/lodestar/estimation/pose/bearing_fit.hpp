@@ -147,8 +147,8 @@ class BearingFit {
   void add_gravity(const LevelledPose& pose, Normal& normal) const;
   Normal normal_equations(const LevelledPose& pose, const Selection& selection) const;
   Solution solve(const Normal& normal, Gravity gravity) const;
-  static PoseFit ended(const LevelledPose& from, const LevelledPose& at, const Normal& normal,
-                       const Solution& solution, Gravity gravity);
+  static PoseFit ended(const LevelledPose& from, const LevelledPose& at, const Normal& normal, const Solution& solution,
+                       Gravity gravity);
 
   boost::container::small_vector<Ray, 16> rays_;
   double tilt_variance_;
