@@ -31,7 +31,7 @@ inline RigidTransform turned(const RollPitchYaw& angles, const Eigen::Vector3d& 
 }
 
 inline MountTrial mount_trial(const MountTrialParams& trial, std::uint64_t seed) {
-  Noise noise(seed * 1'000'003);  // the streams of neighbouring seeds overlap but for their first number
+  Noise noise(seed);
   const auto normal = [&](double sigma) { return trial.scale * sigma * noise.normal(); };
   const auto normal3 = [&](double sigma) { return Eigen::Vector3d(normal(sigma), normal(sigma), normal(sigma)); };
   constexpr double kSurvey_m = 0.005, kBearing_rad = 0.0005;

@@ -36,7 +36,7 @@ class BoardRenderer {
   cv::Mat render(const cv::Mat& picture, double pixels_per_m, const RigidTransform& T_camera_board, bool y_up,
                  std::uint64_t seed) const {
     constexpr float kWall = 110;
-    Noise noise(seed * 1'000'003);
+    Noise noise(seed);
     const Eigen::Matrix3f R = T_camera_board.linear().transpose().cast<float>();
     const Eigen::Vector3f eye = (T_camera_board.inverse() * Eigen::Vector3d::Zero()).cast<float>();
     const auto scale = static_cast<float>(pixels_per_m);

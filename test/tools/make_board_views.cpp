@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   }
   const Eigen::Vector2d middle_m = 0.5 * Eigen::Vector2d(picture.cols, picture.rows) / kPixelsPerM;
   for (int i = 0; i < std::atoi(argv[2]); ++i) {
-    test::Noise noise(static_cast<std::uint64_t>(i) * 1'000'003);
+    test::Noise noise(static_cast<std::uint64_t>(i));
     const Eigen::Vector3d tilt(noise.uniform(-0.5, 0.5), noise.uniform(-0.5, 0.5), noise.uniform(-0.4, 0.4));
     const RigidTransform T_camera_board =
         test::board_in_view(middle_m, noise.uniform(0.26, 0.36), noise.uniform(0, radians(15)), 2.4 * i, tilt);

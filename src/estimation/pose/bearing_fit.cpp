@@ -8,7 +8,8 @@
 namespace lodestar {
 namespace {
 
-constexpr double kConverged_chi2 = 1e-10;
+/// A further step that gains less moves the pose by less than a thirtieth of its own sigma.
+constexpr double kConverged_chi2 = 1e-3;
 /// A step may raise chi2 by so much: the survey's weights change a little with the ranges.
 constexpr double kHarmless_chi2 = 0.1;
 constexpr int kMaxIterations = 20, kMaxHalvings = 8;
@@ -30,9 +31,11 @@ Eigen::Matrix2d inverse(const Eigen::Matrix2d& S) {
 /// What gravity and R_map_level disagree in, about the levelled x and y axes.
 Eigen::Vector2d tilt_rad(const Eigen::Matrix3d& R_map_level) { return {R_map_level(2, 1), -R_map_level(2, 0)}; }
 
-/// What a further step would gain after one that gained gain_chi2: the square of how far the model bends over the step
-/// (a metre is at least as near as a beacon), and what the residuals, milliradians, add to the model's slope.
-double next_gain_chi2(double gain_chi2, const PoseStep& step) { return gain_chi2 * (10 * step.squaredNorm() + 1e-5); }
+/// What a further step would gain after one that gained gain_chi2: the square of how far the model bends over the step,
+/// seen from the nearest beacon, and what the residuals, milliradians, add to the model's slope.
+double next_gain_chi2(double gain_chi2, const PoseStep& step, double per_depth) {
+  return gain_chi2 * (2 * (per_depth * per_depth * step.head<3>().squaredNorm() + step.tail<3>().squaredNorm()) + 1e-5);
+}
 
 LevelledPose moved(const LevelledPose& pose, const PoseStep& step) {
   const Eigen::Quaterniond turn(1, 0.5 * step(kTilt), 0.5 * step(kTilt + 1), 0.5 * step(kYaw));
@@ -77,7 +80,7 @@ bool BearingFit::valid() const {
 struct BearingFit::Rows {
   std::array<PoseStep, 2> J;
   Covariance2 S;
-  double x_rad, y_rad;
+  double x_rad, y_rad, per_depth;
 };
 
 void BearingFit::set_rows(int i, const Residual& r, Rows& out) const {
@@ -99,6 +102,7 @@ void BearingFit::set_rows(int i, const Residual& r, Rows& out) const {
   out.S = r.covariance;
   out.x_rad = r.x_rad;
   out.y_rad = r.y_rad;
+  out.per_depth = r.per_depth;
 }
 
 BearingFit::Covariance2 BearingFit::innovation(int i, const Residual& r, const PoseStepCovariance& P) const {
@@ -115,6 +119,7 @@ void BearingFit::Normal::add(const Rows& r) {
   A.noalias() += WJy * r.J[1].transpose();
   g += r.x_rad * WJx + r.y_rad * WJy;
   chi2 += W.of(r.x_rad, r.y_rad);
+  nearest_per_m = std::max(nearest_per_m, r.per_depth);
 }
 
 void BearingFit::add_gravity(const LevelledPose& pose, Normal& normal) const {
@@ -178,24 +183,25 @@ BearingFit::Solution BearingFit::solve(const Normal& normal, Gravity gravity) co
 PoseFit BearingFit::of_root(const TwoBeaconRoot& root, int first, int second) const {
   PoseFit out;
   out.pose = out.explained = LevelledPose::of(root);
-  Rows rows[2];
+  const Ray* rays[] = {&rays_[first], &rays_[second]};
+  Covariance2 S[2];
   Eigen::Matrix4d J;
   Eigen::Matrix<double, 4, 2> J_tilt;
-  for (int i = 0; i < 2; ++i) {
-    const int ray = i == 0 ? first : second;
-    set_rows(ray, residual(ray, out.pose), rows[i]);
-    for (int k = 0; k < 2; ++k) {
-      for (int column = 0; column < 4; ++column) J(2 * i + k, column) = rows[i].J[k](column);
-      for (int column = 0; column < 2; ++column) J_tilt(2 * i + k, column) = rows[i].J[k](kTilt + column);
-    }
+  for (int i = 0; i < 2; ++i) {  // equation 11 with a residual of 0
+    const Eigen::Vector3d &x = rays[i]->x_level, &y = rays[i]->y_level;
+    const double per_depth = 1 / root.depth_m[i];
+    J.row(2 * i) << -per_depth * x.x(), -per_depth * x.y(), -per_depth * x.z(), -y.z();
+    J.row(2 * i + 1) << -per_depth * y.x(), -per_depth * y.y(), -per_depth * y.z(), x.z();
+    J_tilt.row(2 * i) << -y.x(), -y.y();
+    J_tilt.row(2 * i + 1) << x.x(), x.y();
+    S[i] = rays[i]->spread(per_depth);
   }
   const Eigen::Matrix4d X = J.inverse();
   const Eigen::Matrix<double, 4, 2> K = -X * J_tilt;
   Eigen::Matrix4d XS;
   for (int i = 0; i < 2; ++i) {
-    const Covariance2& S = rows[i].S;
-    XS.col(2 * i) = S.xx * X.col(2 * i) + S.xy * X.col(2 * i + 1);
-    XS.col(2 * i + 1) = S.xy * X.col(2 * i) + S.yy * X.col(2 * i + 1);
+    XS.col(2 * i) = S[i].xx * X.col(2 * i) + S[i].xy * X.col(2 * i + 1);
+    XS.col(2 * i + 1) = S[i].xy * X.col(2 * i) + S[i].yy * X.col(2 * i + 1);
   }
   out.covariance.topRightCorner<4, 2>() = tilt_variance_ * K;
   out.covariance.topLeftCorner<4, 4>().noalias() = XS * X.transpose();
@@ -206,19 +212,24 @@ PoseFit BearingFit::of_root(const TwoBeaconRoot& root, int first, int second) co
   return out;
 }
 
+/// @param from where the solution steps off
+PoseFit BearingFit::ended(const LevelledPose& from, const LevelledPose& at, const Normal& normal,
+                          const Solution& solution, Gravity gravity) {
+  const double chi2 = normal.chi2 + normal.g.dot(solution.explained);
+  return {at, gravity == Gravity::kGiven ? moved(from, solution.explained) : at, solution.covariance(), chi2,
+          solution.regular};
+}
+
 PoseFit BearingFit::fit(const LevelledPose& start, const Selection& selection, Gravity gravity) const {
   LevelledPose pose = start;
   Normal normal = normal_equations(pose, selection);
   Solution solution = solve(normal, gravity);
-  const auto ended = [&](const LevelledPose& at) -> PoseFit {
-    const double chi2 = normal.chi2 + normal.g.dot(solution.explained);
-    return {at, moved(pose, solution.explained), solution.covariance(), chi2, solution.regular};
-  };
   for (int iteration = 0; iteration < kMaxIterations && solution.regular; ++iteration) {
     const double gain_chi2 = -normal.g.dot(solution.step);
     PoseStep step = solution.step;
     LevelledPose next = moved(pose, step);
-    if (next_gain_chi2(gain_chi2, step) < kConverged_chi2) return ended(next);
+    if (next_gain_chi2(gain_chi2, step, normal.nearest_per_m) < kConverged_chi2)
+      return ended(pose, next, normal, solution, gravity);
     Normal normal_next = normal_equations(next, selection);
     const auto worse = [&] { return !(normal_next.chi2 <= normal.chi2 + kHarmless_chi2); };
     for (int halving = 0; halving < kMaxHalvings && worse(); ++halving) {
@@ -231,7 +242,7 @@ PoseFit BearingFit::fit(const LevelledPose& start, const Selection& selection, G
     normal = normal_next;
     solution = solve(normal, gravity);
   }
-  return ended(pose);
+  return ended(pose, pose, normal, solution, gravity);
 }
 
 }  // namespace lodestar

@@ -51,6 +51,14 @@ double sharpness(const LevelledBearing& first, const LevelledBearing& second) {
   return ((nx * nx + ny * ny) * d2_xy - c * c) / (d2_xy + dz * dz);
 }
 
+/// The bearing nearest to the horizon, where the search for a pair begins: it does not hang on the bearings' order.
+int lowest(const BearingFit& model) {
+  int best = 0;
+  for (int i = 1; i < model.size(); ++i)
+    if (model.bearing(i).direction_level.z() < model.bearing(best).direction_level.z()) best = i;
+  return best;
+}
+
 int sharpest_with(const BearingFit& model, int first) {
   int best = -1;
   double most = 0;
@@ -114,9 +122,9 @@ Result<Roots, NoFix> roots_in_front(const BearingFit& two_beacons) { return root
 
 Starts starts_of_sharpest_pair(const BearingFit& model) {
   Starts found;
-  int first = 0, second = sharpest_with(model, first);
+  const int second = sharpest_with(model, lowest(model));
   if (second < 0) return found;
-  first = sharpest_with(model, second);
+  const int first = sharpest_with(model, second);
   if (const auto roots = roots_of(model, first, second))
     for (const TwoBeaconRoot& root : *roots) found.push_back(LevelledPose::of(root));
   return found;

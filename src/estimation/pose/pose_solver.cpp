@@ -21,6 +21,21 @@ struct PoseSolver::Candidate {
   double residual2_rad2 = 0;
 };
 
+/// Least cost first.
+struct PoseSolver::Found {
+  boost::container::static_vector<Candidate, kMaxSolutions> poses;
+  NoFix none = NoFix::kResidual;  ///< why, where there is none
+
+  void insert(Candidate&& candidate) {
+    const auto dearer = [&](const Candidate& other) { return candidate.cost < other.cost; };
+    poses.insert(std::find_if(poses.begin(), poses.end(), dearer), std::move(candidate));
+  }
+  bool has(const LevelledPose& pose) const {
+    return std::any_of(poses.begin(), poses.end(),
+                       [&](const Candidate& known) { return same_pose(known.fit.pose, pose); });
+  }
+};
+
 namespace {
 
 constexpr int kMaxRounds = 8;
@@ -55,13 +70,6 @@ LevelledMount levelled_mount(const Tilt& tilt, const RigidTransform& T_base_came
   return mount;
 }
 
-/// Keeps candidates in the order of their cost.
-template <class Candidates, class Candidate>
-void insert(Candidates& sorted, Candidate&& candidate) {
-  const auto dearer = [&](const auto& other) { return candidate.cost < other.cost; };
-  sorted.insert(std::find_if(sorted.begin(), sorted.end(), dearer), std::forward<Candidate>(candidate));
-}
-
 /// The bearings that a hypothesis, straight from the closed form, agrees with.
 Selection agreeing(const BearingFit& model, const PoseFit& fit, double gate_chi2) {
   Selection agrees(model.size());
@@ -77,8 +85,13 @@ bool quorum(int count, int of) { return count >= std::min(of, 3) && 2 * count > 
 
 int degrees_of_freedom(int bearings) { return std::max(1, 2 * bearings - 4); }
 
-/// A chi2 that a thousand frames without an error would hardly exceed: mean and three sigma.
-double ordinary_chi2(int dof) { return dof + 3 * std::sqrt(2.0 * dof); }
+/// A chi2 that one in a thousand frames without a lie exceeds: Wilson, Hilferty, "The distribution of chi-square",
+/// 1931.
+double ordinary_chi2(int dof) {
+  constexpr double kSigmas = 3.09;
+  const double variance = 2.0 / (9 * dof), root = 1 - variance + kSigmas * std::sqrt(variance);
+  return dof * root * root * root;
+}
 
 /// Squared distance from the prior in x, y, z, yaw.
 double chi2_from(const PoseEstimate& prior, const Fix& fix) {
@@ -206,60 +219,60 @@ PoseSolver::Candidate PoseSolver::refine(const BearingFit& model, const Levelled
 }
 
 /// What the sharpest pair's roots become in a fit of all bearings, if all agree and leave no more than noise does: then
-/// any other pose leaves a bearing out, and there is nothing to vote on. Empty otherwise.
-PoseSolver::Candidates PoseSolver::unquestioned(const BearingFit& model) const {
-  Candidates found;
+/// any other pose leaves a bearing out, and there is nothing to vote on. None otherwise.
+PoseSolver::Found PoseSolver::unquestioned(const BearingFit& model) const {
+  Found found;
   for (const LevelledPose& start : starts_of_sharpest_pair(model)) {
     Candidate candidate = refine(model, start, Selection(model.size(), true), 1);
     const bool ordinary = candidate.fit.chi2 < ordinary_chi2(degrees_of_freedom(model.size()));
-    if (candidate.fit.regular && candidate.count == model.size() && ordinary) insert(found, std::move(candidate));
+    if (!candidate.fit.regular || candidate.count < model.size() || !ordinary) continue;
+    if (!found.has(candidate.fit.pose)) found.insert(std::move(candidate));
   }
-  if (found.size() == 2 && same_pose(found[0].fit.pose, found[1].fit.pose)) found.pop_back();
   return found;
 }
 
-Result<PoseSolver::Candidates, NoFix> PoseSolver::voted(const BearingFit& model) const {
+PoseSolver::Found PoseSolver::voted(const BearingFit& model) const {
+  Found found;
   const auto proposed = hypotheses_of_all_pairs(model, gate_chi2_);
-  if (!proposed) return proposed.error();
-  Candidates found;
+  if (!proposed) {
+    found.none = proposed.error();
+    return found;
+  }
   for (const Hypothesis& hypothesis : *proposed) {
-    const auto same = [&](const Candidate& known) { return same_pose(known.fit.pose, hypothesis.fit.pose); };
-    if (std::any_of(found.begin(), found.end(), same)) continue;
+    if (found.has(hypothesis.fit.pose)) continue;
     const Selection selection = agreeing(model, hypothesis.fit, gate_chi2_);
     if (std::count(selection.begin(), selection.end(), true) < 2) continue;
     Candidate candidate = refine(model, hypothesis.fit.pose, selection, kMaxRounds);
-    if (candidate.count < 2) continue;
-    const auto again = [&](const Candidate& known) { return same_pose(known.fit.pose, candidate.fit.pose); };
-    if (std::any_of(found.begin(), found.end(), again)) continue;
-    if (found.size() == found.capacity()) {
-      if (found.back().cost <= candidate.cost) continue;
-      found.pop_back();
+    if (candidate.count < 2 || found.has(candidate.fit.pose)) continue;
+    if (found.poses.size() == found.poses.capacity()) {
+      if (found.poses.back().cost <= candidate.cost) continue;
+      found.poses.pop_back();
     }
-    insert(found, std::move(candidate));
+    found.insert(std::move(candidate));
   }
   return found;
 }
 
-Result<PoseSolver::Candidates, NoFix> PoseSolver::roots_of_two(const BearingFit& model) const {
+PoseSolver::Found PoseSolver::roots_of_two(const BearingFit& model) const {
+  Found found;
   const auto roots = roots_in_front(model);
-  if (!roots) return roots.error();
-  Candidates found;
+  found.none = roots ? NoFix::kDegenerate : roots.error();
+  if (!roots) return found;
   for (const TwoBeaconRoot& root : *roots) {
-    Candidate candidate;
+    Candidate& candidate = found.poses.emplace_back();
     candidate.fit = model.of_root(root, 0, 1);
-    candidate.agrees = Selection(2, true);
+    candidate.agrees.assign(2, true);
     candidate.count = 2;
-    if (candidate.fit.regular) found.push_back(std::move(candidate));
+    if (!candidate.fit.regular) found.poses.pop_back();
   }
-  if (found.empty()) return NoFix::kDegenerate;
   return found;
 }
 
-Result<PoseSolver::Candidates, NoFix> PoseSolver::candidates(const BearingFit& model) const {
+PoseSolver::Found PoseSolver::candidates(const BearingFit& model) const {
   if (model.size() == 2) return roots_of_two(model);
-  Candidates plain = unquestioned(model);
-  if (!plain.empty()) return plain;
-  return voted(model);
+  Found plain = unquestioned(model);
+  if (plain.poses.empty()) return voted(model);
+  return plain;
 }
 
 bool PoseSolver::within_limits(const PoseEstimate& pose) const {
@@ -273,58 +286,63 @@ bool PoseSolver::on_floor(const PoseEstimate& pose) const {
   return !(off_m > params_.floor_tolerance_m + 3 * std::sqrt(pose.covariance(2, 2)));
 }
 
-/// Why the best of them, which come in order, is no fix.
-std::optional<NoFix> PoseSolver::fault_of(const BearingFit& model, const Candidates& sorted) const {
-  if (sorted.empty()) return NoFix::kResidual;
-  const Candidate& best = sorted.front();
+/// Why the best of them is no fix.
+std::optional<NoFix> PoseSolver::fault_of(const BearingFit& model, const Found& found) const {
+  if (found.poses.empty()) return found.none;
+  const Candidate& best = found.poses.front();
   if (!quorum(best.count, model.size())) return NoFix::kResidual;
   if (best.fit.chi2 > params_.max_residual_chi2_per_dof * degrees_of_freedom(best.count)) return NoFix::kResidual;
   if (!best.fit.regular) return NoFix::kDegenerate;
   return std::nullopt;
 }
 
-Fix PoseSolver::fix(const Candidate& candidate, const LevelledMount& mount, const BeaconBearings& bearings) {
-  Fix fix;
+void PoseSolver::set_fix(const Candidate& candidate, const LevelledMount& mount, const BeaconBearings& bearings,
+                         Fix& fix) {
   fix.stamp = bearings.stamp;
   set_base(candidate.fit, mount, fix);
   fix.residual_rms_rad = std::sqrt(candidate.residual2_rad2 / candidate.count);
   fix.beacons.reserve(static_cast<std::size_t>(candidate.count));
   for (std::size_t i = 0; i < bearings.bearings.size(); ++i)
     if (candidate.agrees[i]) fix.beacons.push_back(bearings.bearings[i].beacon);
-  return fix;
 }
 
-Result<PoseSolutions, NoFix> PoseSolver::solutions(const BeaconBearings& bearings, const Tilt& tilt,
-                                                   const RigidTransform& T_base_camera) const {
+std::optional<NoFix> PoseSolver::find(const BeaconBearings& bearings, const Tilt& tilt,
+                                      const RigidTransform& T_base_camera, PoseSolutions& out) const {
   if (!valid(bearings, tilt, T_base_camera)) return NoFix::kInvalid;
   if (bearings.bearings.size() < 2) return NoFix::kTooFewBeacons;
   const LevelledMount mount = levelled_mount(tilt, T_base_camera, params_.camera_mount_sigma_rad);
   const BearingFit model(bearings.bearings, mount.R_level_base * T_base_camera.linear(),
                          std::sqrt(mount.tilt_variance + mount.mount_variance));
   if (!model.valid()) return NoFix::kInvalid;
-  const auto found = candidates(model);
-  if (!found) return found.error();
-  if (const auto fault = fault_of(model, *found)) return *fault;
+  const Found found = candidates(model);
+  if (const auto fault = fault_of(model, found)) return fault;
 
-  PoseSolutions out;
-  for (const Candidate& candidate : *found) {
+  for (const Candidate& candidate : found.poses) {
     if (!candidate.fit.regular || !quorum(candidate.count, model.size())) continue;
-    if (!(candidate.cost < found->front().cost + params_.margin_chi2)) continue;
-    out.push_back({fix(candidate, mount, bearings), candidate.fit.chi2});
-    if (!on_floor(out.back().fix)) out.pop_back();
+    if (!(candidate.cost < found.poses.front().cost + params_.margin_chi2)) continue;
+    PoseSolution& solution = out.emplace_back();
+    solution.chi2 = candidate.fit.chi2;
+    set_fix(candidate, mount, bearings, solution.fix);
+    if (!on_floor(solution.fix)) out.pop_back();
   }
   if (out.empty()) return NoFix::kOffFloor;
   const auto sharp = [&](const PoseSolution& solution) { return within_limits(solution.fix); };
   if (std::none_of(out.begin(), out.end(), sharp)) return NoFix::kDegenerate;
-  return out;
+  return std::nullopt;
+}
+
+Result<PoseSolutions, NoFix> PoseSolver::solutions(const BeaconBearings& bearings, const Tilt& tilt,
+                                                   const RigidTransform& T_base_camera) const {
+  PoseSolutions found;
+  if (const auto fault = find(bearings, tilt, T_base_camera, found)) return *fault;
+  return found;
 }
 
 Result<Fix, NoFix> PoseSolver::solve(const BeaconBearings& bearings, const Tilt& tilt,
                                      const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& prior,
                                      const std::vector<Witness>& witnesses) const {
-  auto found = solutions(bearings, tilt, T_base_camera);
-  if (!found) return found.error();
-  PoseSolutions solutions = std::move(found).value();
+  PoseSolutions solutions;
+  if (const auto fault = find(bearings, tilt, T_base_camera, solutions)) return *fault;
   if (solutions.size() == 1) return std::move(solutions.front().fix);
   const Fix* chosen = nullptr;
   if (prior)

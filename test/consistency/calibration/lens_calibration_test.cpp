@@ -81,7 +81,7 @@ std::vector<BoardView> views_of(const PaintedBoard& painted, const CameraModel& 
   const test::BoardRenderer renderer(camera);
   std::vector<BoardView> views;
   for (int i = 0; i < count; ++i) {
-    test::Noise noise(static_cast<std::uint64_t>(i) * 1'000'003);
+    test::Noise noise(static_cast<std::uint64_t>(i));
     const Eigen::Vector3d tilt(noise.uniform(-0.5, 0.5), noise.uniform(-0.5, 0.5), noise.uniform(-0.4, 0.4));
     const double off_axis_rad = painted.widest_rad * (i % 4 + 0.2) / 3.2, azimuth_rad = 2.4 * i;
     Eigen::Vector3d turn = tilt;

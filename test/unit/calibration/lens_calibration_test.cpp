@@ -25,7 +25,7 @@ std::vector<BoardView> views(int count, double noise_px, double off_axis_rad) {
   const auto camera = CameraModel::create(lens());
   std::vector<BoardView> views;
   for (int i = 0; i < count; ++i) {
-    test::Noise noise(static_cast<std::uint64_t>(i) * 1'000'003);
+    test::Noise noise(static_cast<std::uint64_t>(i));
     const Eigen::Vector3d tilt(noise.uniform(-0.5, 0.5), noise.uniform(-0.5, 0.5), noise.uniform(-3, 3));
     const RigidTransform T_camera_board =
         test::board_in_view({0.13, 0.09}, noise.uniform(0.25, 0.5), noise.uniform(0, off_axis_rad), 2.4 * i, tilt);

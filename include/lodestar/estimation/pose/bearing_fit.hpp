@@ -107,8 +107,7 @@ class BearingFit {
     out.per_depth = 1 / along(ray.bearing.direction_level);
     out.x_rad = out.per_depth * along(ray.x_level);
     out.y_rad = out.per_depth * along(ray.y_level);
-    const double survey = ray.survey_variance_m2 * out.per_depth * out.per_depth;
-    out.covariance = {ray.covariance.xx + survey, ray.covariance.xy, ray.covariance.yy + survey};
+    out.covariance = ray.spread(out.per_depth);
     return out;
   }
   /// What a step of covariance P adds to the covariance of a bearing's residual.
@@ -127,12 +126,19 @@ class BearingFit {
     Eigen::Vector3d x_level, y_level;  ///< right-handed with the bearing
     Covariance2 covariance;
     double survey_variance_m2;
+
+    /// Of the residual: the bearing's and, as seen from the camera, the survey's.
+    Covariance2 spread(double per_depth) const {
+      const double survey = survey_variance_m2 * per_depth * per_depth;
+      return {covariance.xx + survey, covariance.xy, covariance.yy + survey};
+    }
   };
   struct Rows;
   struct Normal {
     PoseStepCovariance A = PoseStepCovariance::Zero();
     PoseStep g = PoseStep::Zero();
     double chi2 = 0;
+    double nearest_per_m = 0;  ///< of the nearest beacon
 
     void add(const Rows& rows);
   };
@@ -141,6 +147,8 @@ class BearingFit {
   void add_gravity(const LevelledPose& pose, Normal& normal) const;
   Normal normal_equations(const LevelledPose& pose, const Selection& selection) const;
   Solution solve(const Normal& normal, Gravity gravity) const;
+  static PoseFit ended(const LevelledPose& from, const LevelledPose& at, const Normal& normal, const Solution& solution,
+                       Gravity gravity);
 
   boost::container::small_vector<Ray, 16> rays_;
   double tilt_variance_;

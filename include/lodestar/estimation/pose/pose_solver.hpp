@@ -90,14 +90,16 @@ class PoseSolver {
 
  private:
   struct Candidate;
-  using Candidates = boost::container::static_vector<Candidate, kMaxSolutions>;
+  struct Found;
   Candidate refine(const BearingFit& model, const LevelledPose& start, const Selection& selection, int rounds) const;
-  Candidates unquestioned(const BearingFit& model) const;
-  Result<Candidates, NoFix> voted(const BearingFit& model) const;
-  Result<Candidates, NoFix> roots_of_two(const BearingFit& model) const;
-  Result<Candidates, NoFix> candidates(const BearingFit& model) const;
-  std::optional<NoFix> fault_of(const BearingFit& model, const Candidates& sorted) const;
-  static Fix fix(const Candidate& candidate, const LevelledMount& mount, const BeaconBearings& bearings);
+  Found unquestioned(const BearingFit& model) const;
+  Found voted(const BearingFit& model) const;
+  Found roots_of_two(const BearingFit& model) const;
+  Found candidates(const BearingFit& model) const;
+  std::optional<NoFix> fault_of(const BearingFit& model, const Found& found) const;
+  static void set_fix(const Candidate& candidate, const LevelledMount& mount, const BeaconBearings& bearings, Fix& fix);
+  std::optional<NoFix> find(const BeaconBearings& bearings, const Tilt& tilt, const RigidTransform& T_base_camera,
+                            PoseSolutions& out) const;
   bool within_limits(const PoseEstimate& pose) const;
   bool on_floor(const PoseEstimate& pose) const;
 

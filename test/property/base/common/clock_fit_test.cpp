@@ -18,7 +18,7 @@ struct Link {
 
 /// Largest error of the mapped time of each sample after five seconds, over a minute.
 double largest_error_s(const Link& link, std::uint64_t seed) {
-  test::Noise noise(seed * 1'000'003);
+  test::Noise noise(seed);
   ClockFitParams params;
   params.tick_hz = 1e6;
   params.counter_bits = 32;

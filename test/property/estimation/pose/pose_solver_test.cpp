@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "support/beacon_scene.hpp"
 
 namespace lodestar {
@@ -42,6 +44,31 @@ TEST(PoseSolverProperty, OrderOfTheBearingsDoesNotMatter) {
     ASSERT_EQ(forwards.ok(), backwards.ok());
     if (!forwards.ok()) continue;
     EXPECT_LT((forwards->T_map_base.matrix() - backwards->T_map_base.matrix()).norm(), 1e-6);
+  }
+}
+
+TEST(BearingFitProperty, EndsWithinAThirtiethOfASigmaOfTheMinimumFromAnyNearStart) {
+  for (int trial = 0; trial < 200; ++trial) {
+    test::Random random(trial);
+    const test::SceneNoise noise{0.001, 0.01, 0.005, 0.002};
+    test::Scene scene = test::random_scene(random, noise);
+    for (const Eigen::Vector3d& beacon : test::random_ceiling(random, scene, 6, 1)) scene.see(beacon, noise, random);
+    const BearingFit model(scene.seen.bearings,
+                           rotation({scene.tilt.roll_rad, scene.tilt.pitch_rad, 0}) * scene.T_base_camera.linear(),
+                           0.005);
+    const double yaw_rad = roll_pitch_yaw(scene.T_map_base.linear()).yaw_rad + random.normal(0.1);
+    const LevelledPose start{(scene.T_map_base * scene.T_base_camera).translation() + random.normal3(0.3),
+                             rotation({0, 0, yaw_rad})};
+    const Selection all(model.size(), true);
+    const PoseFit once = model.fit(start, all, Gravity::kPrior);
+    PoseFit minimum = once;
+    for (int again = 0; again < 5; ++again) minimum = model.fit(minimum.pose, all, Gravity::kPrior);
+    const Eigen::Matrix3d& R = minimum.pose.R_map_level;
+    const Eigen::Vector3d turn = so3_log(R.transpose() * once.pose.R_map_level);
+    PoseStep off;
+    off << R.transpose() * (once.pose.camera_map - minimum.pose.camera_map), turn.z(), turn.x(), turn.y();
+    ASSERT_TRUE(once.regular);
+    EXPECT_LT(off.dot(minimum.covariance.ldlt().solve(off)), 1.0 / 900) << "trial " << trial;
   }
 }
 
