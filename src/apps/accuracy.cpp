@@ -9,6 +9,7 @@
 #include "cli/command_line.hpp"
 #include "cli/progress_bar.hpp"
 #include "lodestar/base/common/angle.hpp"
+#include "lodestar/evaluation/nees_band.hpp"
 #include "lodestar/sim/line_run.hpp"
 
 namespace lodestar {
@@ -64,6 +65,11 @@ struct Run {
   double bound_m2 = 0;
   std::size_t frames = 0, estimates = 0;
 
+  Errors filter() const {
+    Errors all = standing;
+    all.add(moving);
+    return all;
+  }
   void add(const Run& other) {
     standing.add(other.standing);
     moving.add(other.moving);
@@ -103,8 +109,7 @@ std::string figure(double value, int decimals) {
 }
 
 void print(const std::string& label, const Run& run) {
-  Errors filter = run.standing;
-  filter.add(run.moving);
+  const Errors filter = run.filter();
   const std::string cells[] = {figure(1e3 * run.standing.mean(run.standing.sum_m), 1),
                                figure(1e3 * run.moving.mean(run.moving.sum_m), 1),
                                figure(degrees(filter.mean(filter.yaw_rad)), 3),
@@ -141,6 +146,10 @@ int accuracy(const po::variables_map& options) {
     total.add(one);
   }
   print("all", total);
+  const NeesBand band = nees_band(seeds, 3);
+  const double nees = total.filter().mean(total.filter().nees);
+  std::printf("nees %.2f is %s the 95 %% band of %d seeds, one draw each: %.2f to %.2f\n", nees,
+              band.holds(nees) ? "inside" : "outside", seeds, band.low, band.high);
   return 0;
 }
 

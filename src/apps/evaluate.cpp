@@ -57,14 +57,16 @@ void print_row(const char* what, const TrajectoryError::Part& part) {
   std::printf("%-9s %7zu  %7.1f %7.1f %7.1f %7.1f %7.1f  %7.3f %7.3f  %7.1f  ", what, part.samples, 1e3 * p.mean,
               1e3 * p.rmse, 1e3 * p.median, 1e3 * p.p95, 1e3 * p.max, degrees(part.yaw_rad.mean),
               degrees(part.yaw_rad.p95), 1e3 * part.z_m.mean);
-  if (part.nees_mean)
-    std::printf("%6.2f\n", *part.nees_mean);
+  if (part.nees)
+    std::printf("%6.2f  %5.2f to %5.2f  %s\n", part.nees->mean, part.nees->band.low, part.nees->band.high,
+                part.nees->band.holds(part.nees->mean) ? "inside" : "outside");
   else
     std::printf("%6s\n", "-");
 }
 
 void print(const TrajectoryError& error) {
-  std::printf("%-9s %7s  %39s  %15s  %7s  %6s\n", "", "", "horizontal error, mm", "yaw error, deg", "z, mm", "nees");
+  std::printf("%-9s %7s  %39s  %15s  %7s  %6s  %s\n", "", "", "horizontal error, mm", "yaw error, deg", "z, mm",
+              "nees", "its 95 % band");
   std::printf("%-9s %7s  %7s %7s %7s %7s %7s  %7s %7s  %7s  %6s\n", "", "samples", "mean", "rmse", "median", "p95",
               "max", "mean", "p95", "mean", "(3)");
   print_row("all", error.all);

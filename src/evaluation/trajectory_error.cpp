@@ -21,10 +21,21 @@ double quantile(const std::vector<double>& sorted, double q) {
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-std::optional<double> nees(const EstimateRow& row, const Eigen::Vector3d& error) {
+std::optional<Eigen::Vector3d> normalized(const EstimateRow& row, const Eigen::Vector3d& error) {
   const Eigen::Vector3d sigma(row.sigma_x_m, row.sigma_y_m, row.sigma_yaw_rad);
   if (sigma.minCoeff() <= 0) return std::nullopt;
-  return error.cwiseQuotient(sigma).squaredNorm();
+  return error.cwiseQuotient(sigma);
+}
+
+std::optional<TrajectoryError::Nees> nees(const std::vector<Eigen::Vector3d>& normalized_errors) {
+  if (normalized_errors.empty()) return std::nullopt;
+  double sum = 0;
+  for (const Eigen::Vector3d& e : normalized_errors) sum += e.squaredNorm();
+  TrajectoryError::Nees nees;
+  nees.mean = sum / static_cast<double>(normalized_errors.size());
+  nees.draws = independent_draws(normalized_errors);
+  nees.band = nees_band(nees.draws, 3);
+  return nees;
 }
 
 TrajectoryError::Sample compare(const EstimateRow& row, const RigidTransform& truth, double speed_m_s) {
@@ -37,30 +48,27 @@ TrajectoryError::Sample compare(const EstimateRow& row, const RigidTransform& tr
   sample.speed_m_s = speed_m_s;
   sample.sigma_position_m = std::hypot(row.sigma_x_m, row.sigma_y_m);
   sample.sigma_yaw_rad = row.sigma_yaw_rad;
-  sample.nees = nees(row, {difference.x(), difference.y(), sample.yaw_rad});
+  sample.normalized = normalized(row, {difference.x(), difference.y(), sample.yaw_rad});
   return sample;
 }
 
 template <class Keep>
 TrajectoryError::Part part(const std::vector<TrajectoryError::Sample>& samples, Keep&& keep) {
   std::vector<double> position, yaw, z;
-  double nees_sum = 0;
-  std::size_t nees_count = 0;
+  std::vector<Eigen::Vector3d> normalized_errors;
   for (const auto& sample : samples) {
     if (!keep(sample)) continue;
     position.push_back(sample.position_m);
     yaw.push_back(std::abs(sample.yaw_rad));
     z.push_back(std::abs(sample.z_m));
-    if (!sample.nees) continue;
-    nees_sum += *sample.nees;
-    ++nees_count;
+    if (sample.normalized) normalized_errors.push_back(*sample.normalized);
   }
   TrajectoryError::Part part;
   part.samples = position.size();
   part.position_m = error_statistics(std::move(position));
   part.yaw_rad = error_statistics(std::move(yaw));
   part.z_m = error_statistics(std::move(z));
-  if (nees_count > 0) part.nees_mean = nees_sum / static_cast<double>(nees_count);
+  part.nees = nees(normalized_errors);
   return part;
 }
 

@@ -20,11 +20,18 @@ Json statistics(const ErrorStatistics& s, const std::string& unit) {
 }
 
 Json part(const TrajectoryError::Part& p) {
-  return {{"samples", p.samples},
-          {"position", statistics(p.position_m, "_m")},
-          {"yaw", statistics(p.yaw_rad, "_rad")},
-          {"z", statistics(p.z_m, "_m")},
-          {"nees_mean", number(p.nees_mean)}};
+  Json json{{"samples", p.samples},
+            {"position", statistics(p.position_m, "_m")},
+            {"yaw", statistics(p.yaw_rad, "_rad")},
+            {"z", statistics(p.z_m, "_m")},
+            {"nees_mean", nullptr},
+            {"nees", nullptr}};
+  if (!p.nees) return json;
+  json["nees_mean"] = p.nees->mean;
+  json["nees"] = {{"independent_draws", p.nees->draws},
+                  {"band", {p.nees->band.low, p.nees->band.high}},
+                  {"inside", p.nees->band.holds(p.nees->mean)}};
+  return json;
 }
 
 }  // namespace

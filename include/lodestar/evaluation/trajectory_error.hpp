@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lodestar/evaluation/estimate_csv.hpp"
+#include "lodestar/evaluation/nees_band.hpp"
 #include "lodestar/evaluation/truth_track.hpp"
 
 namespace lodestar {
@@ -32,12 +33,18 @@ struct TrajectoryError {
     double z_m = 0;         ///< signed
     double speed_m_s = 0;   ///< of the truth
     double sigma_position_m = 0, sigma_yaw_rad = 0;
-    std::optional<double> nees;  ///< of x, y, yaw (3 degrees of freedom); none when a sigma is 0
+    std::optional<Eigen::Vector3d> normalized;  ///< errors of x, y, yaw over their sigmas; none when a sigma is 0
+  };
+  /// Normalised error squared, 3 degrees of freedom.
+  struct Nees {
+    double mean = 0;
+    double draws = 0;  ///< independent ones that the samples are worth
+    NeesBand band;     ///< 95 %, of the mean over so many
   };
   struct Part {
     std::size_t samples = 0;
     ErrorStatistics position_m, yaw_rad, z_m;
-    std::optional<double> nees_mean;
+    std::optional<Nees> nees;
   };
   struct Relative {
     std::size_t samples = 0;

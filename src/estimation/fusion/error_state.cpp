@@ -28,6 +28,7 @@ CoreState boxplus(const CoreState& x, const CoreError& e) {
   y.gyro_scale += e[kGyroScale];
   y.lens_scale += e[kLensScale];
   y.time_offset_s += e[kTimeOffset];
+  y.wheel_slip_m_s += e[kWheelSlip];
   y.q_mount = (exp_quaternion(e.segment<3>(kMount)) * x.q_mount).normalized();
   return y;
 }
@@ -44,6 +45,7 @@ CoreError boxminus(const CoreState& x2, const CoreState& x1) {
   e[kGyroScale] = x2.gyro_scale - x1.gyro_scale;
   e[kLensScale] = x2.lens_scale - x1.lens_scale;
   e[kTimeOffset] = x2.time_offset_s - x1.time_offset_s;
+  e[kWheelSlip] = x2.wheel_slip_m_s - x1.wheel_slip_m_s;
   e.segment<3>(kMount) = so3_log((x2.q_mount * x1.q_mount.conjugate()).toRotationMatrix());
   return e;
 }

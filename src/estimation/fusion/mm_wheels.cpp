@@ -28,11 +28,13 @@ Innovation<3> wheels_innovation(const CoreState& x, const OdometrySample& sample
   const Eigen::Matrix3d D = scale.asDiagonal();
 
   Innovation<3> m;
-  m.residual << sample.velocity_m_s.x() - scale.x() * v.x(), sample.velocity_m_s.y() - scale.y() * v.y(), -v.z();
+  m.residual << sample.velocity_m_s.x() - scale.x() * v.x() - x.wheel_slip_m_s,
+      sample.velocity_m_s.y() - scale.y() * v.y(), -v.z();
   m.H.block<3, 3>(0, kVelocity) = D * R_base_map;
   m.H.block<3, 3>(0, kRotation) = D * R_base_map * skew(x.velocity);
   m.H.block<3, 3>(0, kGyroBias) = -D * skew(rig.imu_position_base);
   m.H.block<2, 1>(0, kWheelScale) = v.head<2>();
+  m.H(0, kWheelSlip) = 1.0;
 
   const double speed = sample.velocity_m_s.norm();
   // Sideslip lasts as long as the turn, so it is no noise that the next samples average out.

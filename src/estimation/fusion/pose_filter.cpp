@@ -32,7 +32,8 @@ double horizontal_sigma_m(const FilterState& state) { return std::sqrt(state.P(0
 }  // namespace
 
 fusion::Gates::Gates(double probability)
-    : chi2_2(chi_square_quantile(probability, 2)),
+    : chi2_1(chi_square_quantile(probability, 1)),
+      chi2_2(chi_square_quantile(probability, 2)),
       chi2_3(chi_square_quantile(probability, 3)),
       chi2_4(chi_square_quantile(probability, 4)) {}
 
@@ -151,6 +152,7 @@ Tally PoseFilter::apply(FilterState& state, std::size_t i) const {
     return {};
   }
   fusion::advance(state, entry.stamp, buffer_.next_imu(i), params_);
+  fusion::correct_with_floor(state, gates_, params_);
   Tally tally;
   if (const auto* imu = std::get_if<ImuSample>(&entry.event))
     fusion::take_imu(state, *imu, params_);

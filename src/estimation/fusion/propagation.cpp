@@ -22,6 +22,19 @@ void relax_time_offset(FilterState& state, double dt_s, const PoseFilterParams& 
   state.time_offset_s *= keep;
 }
 
+/// Slip ends: soon where there may be none any more.
+void relax_wheel_slip(FilterState& state, double dt_s) {
+  constexpr double kThere = 2.0;  // sigmas
+  constexpr double kLasts_s = 2.0, kEnds_s = 0.5;
+  const double variance = state.P(kWheelSlip, kWheelSlip);
+  if (variance == 0) return;
+  const bool there = state.wheel_slip_m_s * state.wheel_slip_m_s > kThere * kThere * variance;
+  const double keep = std::exp(-dt_s / (there ? kLasts_s : kEnds_s));
+  state.P.row(kWheelSlip) *= keep;
+  state.P.col(kWheelSlip) *= keep;
+  state.wheel_slip_m_s *= keep;
+}
+
 void spread(FilterState& state, const Transition& step, double dt_s, const PoseFilterParams& params) {
   Covariance& P = state.P;
   const Eigen::Matrix<double, kStepWrites, Eigen::Dynamic, 0, kStepWrites, kMaxSize> rows =
@@ -42,6 +55,7 @@ void spread(FilterState& state, const Transition& step, double dt_s, const PoseF
   walk(kMount, 3, std::hypot(params.mount_drift_rad_sqrt_s, params.lens_drift_rad_sqrt_m * root_speed));
   walk(kLensScale, 1, params.lens_scale_drift_sqrt_m * root_speed);
   relax_time_offset(state, dt_s, params);
+  relax_wheel_slip(state, dt_s);
 }
 
 /// Right Jacobian of SO(3), to the order that a step of some milliseconds needs.
@@ -145,9 +159,9 @@ Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParam
   return Eigen::Vector3d::Zero();
 }
 
-double acceleration_along(const FilterState& state) {
+Eigen::Vector3d acceleration_base(const FilterState& state) {
   const Eigen::Vector3d gravity_base = state.q_map_base.conjugate() * Eigen::Vector3d(0, 0, kGravity_m_s2);
-  return (state.inputs.specific_force_m_s2 - state.accelerometer_bias - gravity_base).x();
+  return state.inputs.specific_force_m_s2 - state.accelerometer_bias - gravity_base;
 }
 
 Transition move_inertial(CoreState& x, const Eigen::Vector3d& angular_velocity_rad_s,

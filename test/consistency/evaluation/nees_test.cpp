@@ -36,7 +36,7 @@ TEST(NeesConsistency, AnHonestEstimateHasThreeDegreesOfFreedom) {
       row.T_map_base.linear() = rotation({0, 0, row.sigma_yaw_rad * normal(random)});
       estimate.push_back(row);
     }
-    const double mean = *trajectory_error(truth, estimate).all.nees_mean;
+    const double mean = trajectory_error(truth, estimate).all.nees->mean;
     EXPECT_GT(mean, chi_square_quantile(0.0005, 3 * n) / n) << seed;
     EXPECT_LT(mean, chi_square_quantile(0.9995, 3 * n) / n) << seed;
   }

@@ -98,7 +98,7 @@ TEST(TrajectoryError, SplitsRestAndMotionAndKeepsHeightApart) {
   EXPECT_NEAR(error.moving.position_m.median, 0.04 * std::sqrt(2.0), 1e-6);
   EXPECT_NEAR(error.all.yaw_rad.max, 0.01, 1e-9);
   EXPECT_NEAR(error.all.z_m.mean, 0.2, 1e-9);
-  EXPECT_NEAR(*error.standing.nees_mean, (2 * 0.0009 + 0.0001) / 0.01, 0.01);
+  EXPECT_NEAR(error.standing.nees->mean, (2 * 0.0009 + 0.0001) / 0.01, 0.01);
   EXPECT_NEAR(*error.time_to_first_fix_s, 0.5, 1e-9);
   EXPECT_DOUBLE_EQ(error.availability, 1);
 }
@@ -172,7 +172,7 @@ TEST(TrajectoryJson, AnEmptyEstimateIsNullNotNaN) {
 
 TEST(TrajectoryError, WithoutSigmaThereIsNoNees) {
   const TruthTrack track = truth();
-  EXPECT_FALSE(trajectory_error(track, {row(1, pose(1, 5, 0.3), 0.0)}).all.nees_mean);
+  EXPECT_FALSE(trajectory_error(track, {row(1, pose(1, 5, 0.3), 0.0)}).all.nees);
 }
 
 }  // namespace

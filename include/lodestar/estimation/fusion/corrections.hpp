@@ -14,7 +14,7 @@ namespace lodestar::fusion {
 /// Thresholds of the squared distance, by degrees of freedom.
 struct Gates {
   explicit Gates(double probability);
-  double chi2_2, chi2_3, chi2_4;
+  double chi2_1, chi2_2, chi2_3, chi2_4;
 };
 
 /// What became of the measurements of one event.
@@ -38,5 +38,9 @@ void take_wheels(FilterState& state, const OdometrySample& sample, const PoseFil
 /// Takes a wheel sample into force; corrects with it, or with the knowledge that the vehicle stands.
 Tally correct_with_wheels(FilterState& state, const OdometrySample& sample, const Rig& rig, const Gates& gates,
                           const PoseFilterParams& params);
+
+/// The floor is level at large: holds the tilt against it, once at each place, so that a truck that drives tells its
+/// accelerometer's bias from its tilt. With an inertial sensor only; without one the motion model has the floor.
+void correct_with_floor(FilterState& state, const Gates& gates, const PoseFilterParams& params);
 
 }  // namespace lodestar::fusion

@@ -24,7 +24,8 @@ constexpr int kGyroScale = 17;          ///< relative, about base_link's z
 constexpr int kMount = 18;              ///< rad, base_link
 constexpr int kLensScale = 21;          ///< relative, of the angle to the optical axis
 constexpr int kTimeOffset = 22;         ///< s, of the camera's stamps
-constexpr int kCore = 23;
+constexpr int kWheelSlip = 23;          ///< m/s, along
+constexpr int kCore = 24;
 constexpr int kMaxOffsets = 16;  ///< source offsets of three components follow the core
 constexpr int kMaxSize = kCore + 3 * kMaxOffsets;
 
@@ -44,6 +45,7 @@ struct CoreState {
   double gyro_scale = 0;      ///< the gyro says (1 + scale) times the truth about z
   double lens_scale = 0;      ///< the lens model says (1 + scale) times the true angle to the optical axis
   double time_offset_s = 0;   ///< an image was taken so much after its stamp
+  double wheel_slip_m_s = 0;  ///< the wheels say so much more, along, while they slip
   Eigen::Quaterniond q_mount = Eigen::Quaterniond::Identity();  ///< R_base_camera = q_mount * nominal R_base_camera
 };
 
@@ -66,6 +68,12 @@ struct SourceOffset {
   std::optional<Stamp> last_used;
 };
 
+/// How far the wheels' speed has leapt away from the state's of late.
+struct WheelLeap {
+  double leap_m_s = 0;   ///< along; forgotten within tenths of a second
+  double along_m_s = 0;  ///< what the state had the wheels say after their last sample
+};
+
 /// The motion inputs in force.
 struct Inputs {
   std::optional<Stamp> imu_stamp;                                    ///< of the last sample heard
@@ -75,6 +83,7 @@ struct Inputs {
   std::optional<OdometrySample> wheels;  ///< the last sample heard
   double wheels_interval_s = 0.02;
   Stamp gyro_moved, wheels_moved;  ///< when each last spoke of motion
+  WheelLeap leap;
 };
 
 /// How the optical updates fare.
@@ -90,7 +99,8 @@ struct FilterState : CoreState {
   Stamp stamp;
   std::array<SourceOffset, kMaxOffsets> offsets;
   int offset_count = 0;
-  double time_offset_prior_s2 = 0;  ///< variance of the time offset at first; 0: switched off
+  std::optional<Eigen::Vector3d> floor_place;  ///< where the tilt was last held against the floor's
+  double time_offset_prior_s2 = 0;             ///< variance of the time offset at first; 0: switched off
   Covariance P = Covariance::Zero(kCore, kCore);
   Inputs inputs;
   Health health;

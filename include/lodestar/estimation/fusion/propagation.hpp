@@ -54,8 +54,8 @@ bool imu_heard(const FilterState& state, const PoseFilterParams& params);
 /// base_link).
 Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParams& params);
 
-/// Acceleration over ground along base_link's x, as the inertial input in force says it (m/s^2).
-double acceleration_along(const FilterState& state);
+/// Acceleration over ground in base_link's axes, as the inertial input in force says it (m/s^2).
+Eigen::Vector3d acceleration_base(const FilterState& state);
 
 /// Takes the state to a stamp (not before its own): by the inertial sensor while it is heard, else by the wheels, else
 /// by constant velocity.

@@ -5,6 +5,7 @@
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/estimation/fusion/mm_bearing.hpp"
 #include "lodestar/estimation/fusion/mm_fix.hpp"
+#include "lodestar/estimation/fusion/mm_floor.hpp"
 #include "lodestar/estimation/fusion/mm_standstill.hpp"
 #include "lodestar/estimation/fusion/mm_wheels.hpp"
 #include "lodestar/estimation/fusion/propagation.hpp"
@@ -36,6 +37,7 @@ class Jacobians : public testing::TestWithParam<int> {
     x.lens_scale = uniform(0.02);
     x.gyro_scale = uniform(0.05);
     x.time_offset_s = uniform(0.01);
+    x.wheel_slip_m_s = uniform(0.5);
     x.offset_count = 2;
     x.P.setIdentity(x.size(), x.size());
     x.offsets[0].value = vector(0.1);
@@ -116,6 +118,13 @@ TEST_P(Jacobians, fix) {
   };
   expect_near(full_jacobian(x, innovation(x)),
               numeric_jacobian<4>(x, [&](const FilterState& at) { return innovation(at).residual; }), 1e-7);
+}
+
+TEST_P(Jacobians, floor) {
+  const FilterState x = state();
+  const auto innovation = [&](const FilterState& at) { return floor_innovation(at, PoseFilterParams()); };
+  expect_near(full_jacobian(x, innovation(x)),
+              numeric_jacobian<2>(x, [&](const FilterState& at) { return innovation(at).residual; }), 1e-7);
 }
 
 TEST_P(Jacobians, wheels) {
