@@ -40,6 +40,7 @@ class BoardRenderer {
     const Eigen::Matrix3f R = T_camera_board.linear().transpose().cast<float>();
     const Eigen::Vector3f eye = (T_camera_board.inverse() * Eigen::Vector3d::Zero()).cast<float>();
     const auto scale = static_cast<float>(pixels_per_m);
+    const float rim = 0.03f * scale;  // wider than a pixel's area on the board
     cv::Mat image(size_, CV_32FC1);
     const Eigen::Vector3f* ray = rays_.data();
     for (int v = 0; v < size_.height; ++v)
@@ -52,6 +53,11 @@ class BoardRenderer {
           const float y = (y_up ? picture.rows - (eye.y() + range * d.y()) * scale : (eye.y() + range * d.y()) * scale);
           const bool hit = range > 0 && x >= 0 && y >= 0 && x < picture.cols && y < picture.rows;
           sum += hit ? picture.at<std::uint8_t>(static_cast<int>(y), static_cast<int>(x)) : kWall;
+          const bool far = range <= 0 || x < -rim || y < -rim || x > picture.cols + rim || y > picture.rows + rim;
+          if (i > 0 || !far) continue;
+          sum = kWall * kRays * kRays;  // the other rays miss it too
+          ray += kRays * kRays;
+          break;
         }
         image.at<float>(v, u) = 20 + 0.8f * sum / (kRays * kRays) + static_cast<float>(noise.normal());
       }

@@ -1,11 +1,7 @@
 #include "lodestar/ros/nodelets/pallet_file.hpp"
 
-#include <fcntl.h>
 #include <ros/serialization.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +11,7 @@
 #include "lodestar/PalletMemory.h"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/transform.hpp"
+#include "lodestar/ros/nodelets/memory_file.hpp"
 
 namespace lodestar {
 namespace {
@@ -84,20 +81,6 @@ bool restore(PalletTracker& tracker, const PalletMemory& memory, const std::stri
   return true;
 }
 
-/// False, with errno, where it could not be written to the disk's last layer.
-bool write_through(const std::string& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return false;
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t wrote = ::write(file, text.data() + done, text.size() - done);
-    if (wrote < 0 && errno != EINTR) break;
-    if (wrote > 0) done += static_cast<std::size_t>(wrote);
-  }
-  const bool good = done == text.size() && ::fsync(file) == 0;
-  return ::close(file) == 0 && good;
-}
-
 }  // namespace
 
 void PalletFile::load_into(PalletTracker& tracker) {
@@ -106,9 +89,7 @@ void PalletFile::load_into(PalletTracker& tracker) {
   std::ifstream stream(path_, std::ios::binary);
   const auto memory = unpacked(std::string(std::istreambuf_iterator<char>(stream), {}));
   if (memory && restore(tracker, *memory, map_frame_)) return;
-  const std::string aside = path_ + ".broken";
-  std::filesystem::rename(path_, aside, none);
-  fault_ = path_ + " cannot be understood: set aside as " + aside + ", and no pallet is known";
+  fault_ = set_aside(path_, "no pallet is known");
 }
 
 void PalletFile::save(const PalletTracker& tracker) {
@@ -120,10 +101,7 @@ void PalletFile::save(const PalletTracker& tracker) {
     memory.carried.push_back(carried.id);
     memory.seats.push_back(seat_message(carried.seat));
   }
-  const std::string beside = path_ + ".new";
-  fault_.clear();
-  if (!write_through(beside, packed(memory)) || ::rename(beside.c_str(), path_.c_str()) != 0)
-    fault_ = path_ + " cannot be written: " + std::strerror(errno);
+  fault_ = replace_file(path_, packed(memory));
 }
 
 }  // namespace lodestar
