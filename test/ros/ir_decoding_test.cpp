@@ -30,7 +30,8 @@ class IrDecoding : public testing::Test {
     ASSERT_TRUE(loaded.ok());
     site_ = *loaded;
     ros::param::set("/ir_decoding/memory", folder_ / "confirmed.yaml");
-    restart_node();
+    ros::param::set("/ir_decoding/site", ros::param::param<std::string>("/site", ""));
+    load_node();
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
     ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
@@ -56,14 +57,17 @@ class IrDecoding : public testing::Test {
     frame.levels = {0.5f};
     player_.publish("/ir/frames", ir_frame_message(frame, "ir_array"));
   }
-  static void restart_node() {
-    nodelet::NodeletUnload unload;
-    unload.request.name = "/ir_decoding";
-    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
+  static void load_node() {
     nodelet::NodeletLoad load;
     load.request.name = "/ir_decoding";
     load.request.type = "lodestar/IrDecodingNodelet";
+    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30)));
     ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load));
+  }
+  static void unload_node() {
+    nodelet::NodeletUnload unload;
+    unload.request.name = "/ir_decoding";
+    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
   }
   bool dropped(const std::string& reason, long at_least) {
     return wait_for([&] { return diagnostics_.count(kNode, "dropped: " + reason) >= at_least; });
@@ -168,7 +172,8 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
 
   // Its restart forgets nothing of that, and whoever listens anew is told.
-  restart_node();
+  unload_node();
+  load_node();
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
   EXPECT_EQ(confirmed_.last().beacon_id, moved.beacon.value);
   EXPECT_NEAR(confirmed_.last().position.x, moved.position_map.x(), 1e-9);
