@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "lodestar/line/localization_line.hpp"
 #include "support/arrival_trials.hpp"
@@ -92,16 +93,38 @@ Coarse coarse_poses(double height_m, double pitch_m, int beacons, int trials) {
 }  // namespace
 
 int main() {
+  constexpr std::pair<test::SnrOf, const char*> kSnr[] = {{test::SnrOf::kBit, "Eb / N0, all diodes"},
+                                                          {test::SnrOf::kSample, "sample of the brightest diode"},
+                                                          {test::SnrOf::kLevel, "level of the brightest diode"}};
   std::printf(
-      "| level SNR dB | from the zenith deg | rms deg | Cramer-Rao deg | rms deg, gains known to 5 %% |\n"
-      "|---|---|---|---|---|\n");
-  for (const double snr_db : {20.0, 26.0, 30.0, 40.0, 49.0})
-    for (const double zenith_deg : {0.0, 20.0, 40.0, 60.0}) {
-      const auto exact = test::arrival_trials(snr_db, radians(zenith_deg), 0, 5000);
-      const auto rough = test::arrival_trials(snr_db, radians(zenith_deg), 0.05, 5000);
-      std::printf("| %.0f | %.0f | %.2f | %.2f | %.2f |\n", snr_db, zenith_deg, degrees(exact.rms_rad),
-                  degrees(exact.least_rad), degrees(rough.rms_rad));
+      "| SNR of | dB | from the zenith deg | rms deg | Cramer-Rao deg | rms deg, gains known to 5 %% |\n"
+      "|---|---|---|---|---|---|\n");
+  for (const auto& [what, name] : kSnr)
+    for (const double snr_db : {10.0, 20.0, 30.0})
+      for (const double zenith_deg : {0.0, 20.0, 40.0, 60.0}) {
+        const auto exact = test::arrival_trials(what, snr_db, radians(zenith_deg), 0, 5000);
+        const auto rough = test::arrival_trials(what, snr_db, radians(zenith_deg), 0.05, 5000);
+        std::printf("| %s | %.0f | %.0f | %.2f | %.2f | %.2f |\n", name, snr_db, zenith_deg, degrees(exact.rms_rad),
+                    degrees(exact.least_rad), degrees(rough.rms_rad));
+      }
+
+  // The bound at a level of 20 dB, where a ring is best at its worst.
+  std::printf("\n| diodes | tilt deg | Cramer-Rao deg at the worst within 60 deg, level of 20 dB |\n|---|---|---|\n");
+  for (const int diodes : {8, 12, 16, 24, 32}) {
+    double best_rad = 10;
+    int best_deg = 0;
+    for (int tilt_deg = 20; tilt_deg <= 85; ++tilt_deg) {
+      double worst_rad = 0;
+      for (int zenith_deg = 0; zenith_deg <= 60; zenith_deg += 5)
+        worst_rad = std::max(worst_rad, test::arrival_trials(test::SnrOf::kLevel, 20, radians(zenith_deg), 0, 50,
+                                                             DiodeArray::ring(diodes, radians(tilt_deg)))
+                                            .least_rad);
+      if (worst_rad >= best_rad) continue;
+      best_rad = worst_rad;
+      best_deg = tilt_deg;
     }
+    std::printf("| %d | %d | %.2f |\n", diodes, best_deg, degrees(best_rad));
+  }
   std::printf(
       "\n| beacons heard | height m | fixes %% | position rms m | yaw rms deg | squared error of 2 |\n"
       "|---|---|---|---|---|---|\n");

@@ -1,5 +1,6 @@
 // calibrate_mount: roll, pitch and yaw of the camera in base_link, from a drive with stands below known beacons.
 
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ constexpr char kUsage[] =
     "\n"
     "Usage: calibrate_mount --site S.yaml --bag IN.bag [--vehicle V.yaml] [--floor-sigma-deg 0.3] [--mount-sigma-m "
     "0.01]\n"
+    "                       [--yaw-limit-deg 0.5]\n"
     "\n"
     "Examples:\n"
     "  calibrate_mount --site hall.yaml --bag turning.bag --vehicle truck.yaml\n"
@@ -115,9 +117,20 @@ void print(const MountCalibration& found, const Eigen::Vector3d& position) {
       degrees(std::max(s.roll_rad, s.pitch_rad)));
 }
 
+void warn_of_yaw(const MountCalibration& found, const MountCalibrationParams& params, double limit_rad) {
+  const double leg_m = straight_leg_m(found, params, limit_rad);
+  if (leg_m == 0) return;
+  std::printf(
+      "\nwarning    yaw: one sigma is %.2f deg, above the limit of %.2f; it comes from the way that the wheels went. "
+      "Record "
+      "again\n           with a straight leg of %.0f m between two stands, or allow more with --yaw-limit-deg\n",
+      degrees(found.sigma.yaw_rad), degrees(limit_rad), std::ceil(leg_m));
+}
+
 int calibrate_mount_of(const po::variables_map& options) {
   MountCalibrationParams params;
   params.floor_sigma_rad = radians(within(options, "floor-sigma-deg", 0.001, 5));
+  const double yaw_limit_rad = radians(within(options, "yaw-limit-deg", 0.3, 5));
   params.mount_sigma_m = within(options, "mount-sigma-m", 1e-4, 1);
   const auto site_path = options["site"].as<std::string>(), bag_path = options["bag"].as<std::string>();
   const Site site = value_or_throw(load_site(site_path));
@@ -154,6 +167,7 @@ int calibrate_mount_of(const po::variables_map& options) {
   const auto found = calibrate_mount(run.stands(), params);
   if (!found) throw UserError(bag_path + ": " + found.error() + ".");
   print(*found, camera.mount.T_base_camera.translation());
+  warn_of_yaw(*found, params, yaw_limit_rad);
   return 0;
 }
 
@@ -168,6 +182,7 @@ int main(int argc, char** argv) {
       "vehicle", po::value<std::string>(),
       "vehicle file (YAML); its mount is the first guess, else that of /tf_static")(
       "floor-sigma-deg", po::value<double>()->default_value(0.3), "slope of the floor, one sigma")(
-      "mount-sigma-m", po::value<double>()->default_value(0.01), "of the camera's position in base_link, one sigma");
+      "mount-sigma-m", po::value<double>()->default_value(0.01), "of the camera's position in base_link, one sigma")(
+      "yaw-limit-deg", po::value<double>()->default_value(0.5), "of yaw's sigma: a warning above it");
   return lodestar::run_tool(argc, argv, lodestar::kUsage, options, lodestar::calibrate_mount_of);
 }

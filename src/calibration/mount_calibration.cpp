@@ -199,6 +199,13 @@ MountCalibration Adjustment::result(double chi2, const Eigen::Matrix<double, 6, 
   result.sigma = {sigma.x(), sigma.y(), sigma.z()};
   result.stands = static_cast<int>(stands_.size());
   result.places = static_cast<int>(places_.size());
+  int bearings = 0;
+  for (const Stand& stand : stands_)
+    for (const BeaconBearing& bearing : stand.bearings) {
+      ++bearings;
+      result.beacon_height_m += bearing.position_map.z() - params_.T_base_camera.translation().z();
+    }
+  result.beacon_height_m /= bearings;
   result.chi2 = chi2;
   // A prior of no sigma is a residual that says nothing: three of the mount, three of each stand.
   result.degrees_of_freedom = problem_.NumResiduals() - problem_.NumParameters() - 3 - 3 * result.stands;
@@ -206,6 +213,15 @@ MountCalibration Adjustment::result(double chi2, const Eigen::Matrix<double, 6, 
 }
 
 }  // namespace
+
+double straight_leg_m(const MountCalibration& found, const MountCalibrationParams& params, double limit_rad) {
+  const double now_rad = found.sigma.yaw_rad;
+  if (now_rad <= limit_rad) return 0;
+  const double leg_rad2 = 1 / (std::pow(limit_rad, -2) - std::pow(now_rad, -2));  // what the leg alone has to tell
+  const double tilt_m = params.floor_sigma_rad * found.beacon_height_m;           // shifts a stand by so much
+  const double across_m2 = 2 * tilt_m * tilt_m + std::pow(params.odometry_sigma_m, 2);
+  return std::sqrt(across_m2 / (leg_rad2 - std::pow(params.odometry_slip_sigma, 2)));
+}
 
 Result<MountCalibration, std::string> calibrate_mount(const std::vector<Stand>& all,
                                                       const MountCalibrationParams& params) {

@@ -12,6 +12,7 @@ constexpr double kUnknown_rad_s = 0.5;  // by which bearings turn when no wheels
 constexpr double kOdometryGood_s = 0.5;
 constexpr double kLeastDistance_m = 0.5;
 constexpr double kModelSigma_rad = 0.05;  // light that comes by way of a wall
+constexpr double kAtOnce_s = 0.006;       // a frame sent on by a wire comes no later; less than a quarter of a slot
 constexpr double kGate_chi2 = 27.6;       // of two degrees of freedom: one true frame in a million is beyond it
 
 double turning_rad_s(const OdometrySample& odometry) {
@@ -60,16 +61,38 @@ void Arrivals::add(const Announcement& announcement) {
   if (!T_base_ir_) return;
   const auto direction = arrival_direction(announcement.levels, array_);
   if (!direction) return drops_.add(direction.error());
+  heard_[announcement.beacon] = {arrival(announcement, *direction),
+                                 odometry_ ? std::optional<double>(moved_rad(announcement.stamp)) : std::nullopt};
+}
+
+Arrival Arrivals::arrival(const Announcement& announcement, const ArrivalDirection& direction) const {
   const Eigen::Matrix3d R = T_base_ir_->linear();
-  heard_[announcement.beacon] = {
-      {announcement.beacon, announcement.stamp, R * direction->direction_ir, R * direction->covariance * R.transpose()},
-      odometry_ ? std::optional<double>(moved_rad(announcement.stamp)) : std::nullopt};
+  return {announcement.beacon, announcement.stamp, R * direction.direction_ir,
+          R * direction.covariance * R.transpose()};
+}
+
+bool Arrivals::add_again(const Announcement& announcement) {
+  const auto known = heard_.find(announcement.beacon);
+  if (known == heard_.end()) return false;
+  const Arrival& first = known->second.arrival;
+  if (std::abs(seconds(announcement.stamp - first.stamp)) > kAtOnce_s) return false;
+  const auto direction = arrival_direction(announcement.levels, array_);
+  if (!direction) return false;
+  const Arrival second = arrival(announcement, *direction);
+  const Eigen::Vector3d off = second.direction_base - first.direction_base, u = first.direction_base;
+  const Eigen::Matrix3d S = first.covariance + second.covariance + u * u.transpose() +
+                            2 * kModelSigma_rad * kModelSigma_rad * Eigen::Matrix3d::Identity();
+  if (off.dot(S.llt().solve(off)) < kGate_chi2) return false;
+  doubt(announcement.beacon, announcement.stamp);
+  return true;
 }
 
 std::vector<Arrival> Arrivals::recent(Stamp now) const {
   std::vector<Arrival> out;
   for (const auto& [id, heard] : heard_) {
-    if (std::abs(seconds(now - heard.arrival.stamp)) > seconds(max_age_)) continue;
+    const auto doubted = doubted_.find(id);
+    if (!within_max_age(heard.arrival.stamp, now)) continue;
+    if (doubted != doubted_.end() && within_max_age(doubted->second, now)) continue;
     out.push_back(heard.arrival);
     Arrival& arrival = out.back();
     const double turned = turned_rad(heard, now);
@@ -81,6 +104,7 @@ std::vector<Arrival> Arrivals::recent(Stamp now) const {
 
 void Arrivals::reset() {
   heard_.clear();
+  doubted_.clear();
   odometry_.reset();
   moved_rad_ = 0;
 }

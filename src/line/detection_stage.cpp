@@ -54,7 +54,8 @@ Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {
   auto result = detector_.process(image, motion_);
   if (!result) return result;
   Sightings sightings = std::move(result).value();
-  namer_.name(sightings, beacons_, heard_, arrivals_, *camera_.model, camera_.T_base_camera, pose);
+  contradicted_ += static_cast<std::uint64_t>(
+      namer_.name(sightings, beacons_, heard_, arrivals_, *camera_.model, camera_.T_base_camera, pose));
   return sightings;
 }
 

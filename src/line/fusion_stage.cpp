@@ -25,8 +25,12 @@ void FusionStage::set_imu(const Eigen::Vector3d& imu_position_base) {
 
 void FusionStage::set_beacons(const std::vector<Beacon>& beacons) {
   beacons_ = beacons;
+  pick_trusted();
+}
+
+void FusionStage::pick_trusted() {
   trusted_ = watch_.trusted(beacons_);
-  places_.set_beacons(beacons);
+  places_.set_beacons(trusted_);
 }
 
 void FusionStage::add_imu(const ImuSample& sample) {
@@ -53,13 +57,16 @@ void FusionStage::add_sightings(const Sightings& sightings) {
   const BeaconBearings named = bearings(sightings, *camera_.model, trusted_, calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
   if (!watch_.due(sightings.stamp)) return;
-  watch_.add(sightings.stamp, filter_.beacon_checks());
-  trusted_ = watch_.trusted(beacons_);
+  const std::size_t distrusted = watch_.distrusted().size();
+  const auto estimate = filter_.estimate_at(sightings.stamp);
+  if (!estimate) return;
+  watch_.add(sightings.stamp, filter_.beacon_checks(), astray(sightings, trusted_, camera_, estimate->T_map_base));
+  if (watch_.distrusted().size() != distrusted) pick_trusted();
 }
 
 void FusionStage::confirm(BeaconId id) {
   watch_.confirm(id);
-  trusted_ = watch_.trusted(beacons_);
+  pick_trusted();
 }
 
 void FusionStage::add_fix(const Fix& fix) {

@@ -53,7 +53,10 @@ Result<Announcement, IrDrop> LocalizationLine::add_ir_frame(const RawIrFrame& fr
     table_.count(IrDrop::kDirection);
     return IrDrop::kDirection;
   }
-  if (const auto reason = table_.accept(*announcement)) return *reason;
+  if (const auto reason = table_.accept(*announcement)) {
+    if (*reason == IrDrop::kSuperframe) arrivals_.add_again(*announcement);
+    return *reason;
+  }
   share_beacons();
   arrivals_.add(*announcement);
   if (pose_.coarse_fix_due(announcement->stamp)) fix_by_arrivals(announcement->stamp);
@@ -77,9 +80,15 @@ void LocalizationLine::add_ir_samples(const IrSampleBlock& samples) {
 }
 
 void LocalizationLine::share_beacons() {
-  const auto beacons = table_.beacons();
-  pose_.set_beacons(beacons);
-  fusion_.set_beacons(beacons);
+  fusion_.set_beacons(table_.beacons());
+  pose_.set_beacons(fusion_.trusted());
+}
+
+bool LocalizationLine::confirm(BeaconId id) {
+  if (!table_.confirm(id)) return false;
+  fusion_.confirm(id);
+  share_beacons();
+  return true;
 }
 
 Result<LocalizationLine::Outcome, FrameDrop> LocalizationLine::process(const Image& image) {
@@ -91,7 +100,9 @@ Result<LocalizationLine::Outcome, FrameDrop> LocalizationLine::process(const Ima
 
   Outcome outcome;
   outcome.sightings = std::move(sightings).value();
+  const std::size_t distrusted = fusion_.distrusted().size();
   fusion_.add_sightings(outcome.sightings);
+  if (fusion_.distrusted().size() != distrusted) pose_.set_beacons(fusion_.trusted());
   if (const auto fix = pose_.process(outcome.sightings, arrivals)) {
     outcome.fix = *fix;
     fusion_.add_fix(*fix);

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ConfirmBeacon.h"
@@ -12,6 +14,7 @@
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -26,6 +29,9 @@ class IrDecoding : public testing::Test {
     const auto loaded = load_site(ros::param::param<std::string>("/site", ""));
     ASSERT_TRUE(loaded.ok());
     site_ = *loaded;
+    ros::param::set("/ir_decoding/memory", folder_ / "confirmed.yaml");
+    ros::param::set("/ir_decoding/site", ros::param::param<std::string>("/site", ""));
+    load_node();
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
     ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
@@ -51,11 +57,24 @@ class IrDecoding : public testing::Test {
     frame.levels = {0.5f};
     player_.publish("/ir/frames", ir_frame_message(frame, "ir_array"));
   }
+  static void load_node() {
+    nodelet::NodeletLoad load;
+    load.request.name = "/ir_decoding";
+    load.request.type = "lodestar/IrDecodingNodelet";
+    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30)));
+    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load));
+  }
+  static void unload_node() {
+    nodelet::NodeletUnload unload;
+    unload.request.name = "/ir_decoding";
+    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
+  }
   bool dropped(const std::string& reason, long at_least) {
     return wait_for([&] { return diagnostics_.count(kNode, "dropped: " + reason) >= at_least; });
   }
 
   ros::NodeHandle nh_;
+  TemporaryFolder folder_;
   Site site_;
   BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
@@ -152,13 +171,37 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_TRUE(wait_for([&] { return confirmed_.size() == 1; }));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
 
+  // Its restart forgets nothing of that, and whoever listens anew is told.
+  unload_node();
+  load_node();
+  ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
+  EXPECT_EQ(confirmed_.last().beacon_id, moved.beacon.value);
+  EXPECT_NEAR(confirmed_.last().position.x, moved.position_map.x(), 1e-9);
+  ASSERT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
+  for (const auto& entry : table.response.beacons) {
+    EXPECT_FALSE(entry.conflict);
+    if (entry.beacon_id != moved.beacon.value) continue;
+    EXPECT_NEAR(entry.position.x, moved.position_map.x(), 1e-9);
+  }
+  ASSERT_TRUE(wait_for([&] { return announcements_.connected(); }));
+  player_.play(0.9);  // one superframe to hear the time of the site
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "accepted") >= 3; }));
+
   // A frame that begins in another beacon's slot: refused, and the operator is told.
-  Announcement relayed = announcement(last.superframe + 2);
-  send(relayed, last.header.stamp + ros::Duration(site_.link.slot_s * (2 * site_.link.slot_count - last.slot) + 0.1));
+  const auto newest = announcements_.last();
+  Announcement relayed = announcement(newest.superframe + 2);
+  send(relayed,
+       newest.header.stamp + ros::Duration(site_.link.slot_s * (2 * site_.link.slot_count - newest.slot) + 0.1));
   EXPECT_TRUE(dropped(name(IrDrop::kSlot), 1));
   EXPECT_TRUE(wait_for([&] {
     return diagnostics_.message(kNode).find("no beacon of this site sends") != std::string::npos;
   })) << diagnostics_.message(kNode);
+
+  // Somebody drowns the channel, and the operator is told.
+  damaged.header.stamp = player_.now();
+  for (int i = 0; i < 30; ++i) player_.publish("/ir/frames", damaged);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.message(kNode).find("most frames are spoilt") != std::string::npos; }))
+      << diagnostics_.message(kNode);
 
   // The clock jumps back: the bag begins again and its frames count again.
   const std::size_t before_jump = announcements_.size();

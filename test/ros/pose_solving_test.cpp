@@ -1,5 +1,6 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
+#include <std_msgs/UInt32MultiArray.h>
 
 #include <cmath>
 #include <limits>
@@ -45,6 +46,7 @@ class PoseSolving : public testing::Test {
   Inbox<BeaconSightingArray> sightings_{nh_, "/beacons/sightings"};
   Inbox<geometry_msgs::PoseWithCovarianceStamped> fixes_{nh_, "/beacons/fix"};
   Diagnostics diagnostics_{nh_};
+  ros::Publisher distrusted_out_ = nh_.advertise<std_msgs::UInt32MultiArray>("/beacons/distrusted", 10);
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
 };
 
@@ -92,6 +94,23 @@ TEST_F(PoseSolving, FixesLieAtTheTruthAndBadInputIsCounted) {
   player_.publish("/camera/camera_info", info);
   EXPECT_TRUE(dropped(name(EdgeDrop::kCameraInfo), 1));
   EXPECT_EQ(fixes_.size(), before);
+
+  // Beacons that the filter distrusts make no fix.
+  std_msgs::UInt32MultiArray distrusted;
+  distrusted.data = {11, 12, 13, 14};
+  distrusted_out_.publish(distrusted);
+  const auto refused = [&] { return diagnostics_.count(kNode, "no fix: " + std::string(name(NoFix::kTooFewBeacons))); };
+  const long refused_before = refused();
+  EXPECT_TRUE(wait_for([&] {
+    sightings_out_.publish(good);
+    return refused() > refused_before;
+  }));
+  const std::size_t without = fixes_.size();
+  distrusted_out_.publish(std_msgs::UInt32MultiArray());
+  EXPECT_TRUE(wait_for([&] {
+    sightings_out_.publish(good);
+    return fixes_.size() > without;
+  }));
 
   // The line goes on, also after the clock jumped back.
   player_.play(1.0);

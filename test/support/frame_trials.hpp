@@ -43,6 +43,15 @@ inline Announcement random_announcement(sim::Random& random) {
   return a;
 }
 
+/// Scales the levels to this energy a bit: eight samples of plus or minus a diode's level, and N0 / 2 is the variance
+/// of a sample's noise.
+inline void set_energy(std::vector<float>& levels, double eb_n0_db, double sample_noise) {
+  double sum2 = 0;
+  for (const float level : levels) sum2 += std::pow(level, 2);
+  const double eb = 2 * std::pow(sample_noise, 2) * std::pow(10, eb_n0_db / 10);
+  for (float& level : levels) level *= static_cast<float>(std::sqrt(eb / (8 * sum2)));
+}
+
 struct FrameTrials {
   int sent = 0, heard = 0, lost = 0, false_frames = 0;
   double stamp_error2_s2 = 0;
@@ -65,14 +74,8 @@ inline FrameTrials frame_trials(double eb_n0_db, int trials) {
     sent.begin_s = 0.004 + random.uniform(0, 1e-4);
     sent.bit_rate_bps = kBitRate_bps * (1 + 1e-6 * random.uniform(-100, 100));
     sent.octets = encode_ir_frame(said, {});
-    double sum2 = 0;
-    for (int c = 0; c < params.channels; ++c) {
-      sent.levels.push_back(static_cast<float>(random.uniform(0, 1)));
-      sum2 += std::pow(sent.levels.back(), 2);
-    }
-    // A bit is eight samples of plus or minus its mean level; N0 / 2 is the variance of a sample's noise.
-    const double eb = 2 * std::pow(params.noise, 2) * std::pow(10, eb_n0_db / 10);
-    for (float& level : sent.levels) level *= static_cast<float>(std::sqrt(eb / (8 * sum2)));
+    for (int c = 0; c < params.channels; ++c) sent.levels.push_back(static_cast<float>(random.uniform(0, 1)));
+    set_energy(sent.levels, eb_n0_db, params.noise);
     sampler.send(sent);
 
     IrDemodulator demodulator(kBitRate_bps, kFullScale_counts);
@@ -93,6 +96,24 @@ inline FrameTrials frame_trials(double eb_n0_db, int trials) {
     if (!right) ++out.lost;
   }
   return out;
+}
+
+/// What the demodulator makes of the levels of one frame that is sent with this energy a bit; none when it is lost.
+inline std::vector<float> heard_levels(std::vector<float> levels, double eb_n0_db, std::uint64_t seed) {
+  sim::IrSamplerParams params;
+  params.noise = 0.01;
+  params.channels = static_cast<int>(levels.size());
+  sim::IrSampler sampler(params, seed);
+  sim::Random random(seed, "heard levels");
+  set_energy(levels, eb_n0_db, params.noise);
+  sampler.send(
+      {0.004 + random.uniform(0, 1e-4), kBitRate_bps, encode_ir_frame(random_announcement(random), {}), levels});
+  IrDemodulator demodulator(kBitRate_bps, kFullScale_counts);
+  std::vector<float> heard;
+  for (int block = 0; block < 9; ++block)
+    demodulator.process(sampler.next(512, Stamp(from_seconds(1000 + sampler.time_s()))),
+                        [&](const RawIrFrame& frame) { heard = frame.levels; });
+  return heard;
 }
 
 }  // namespace lodestar::test

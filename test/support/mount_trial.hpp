@@ -21,6 +21,7 @@ struct MountTrialParams {
   int stands = 12;
   double circle_m = 0;  ///< base_link's way around; 0: it turns in place
   double scale = 1;     ///< of all errors; 0: everything is as it is said to be
+  double leg_m = 0;     ///< straight on to one more stand at the end
 };
 
 inline RigidTransform turned(const RollPitchYaw& angles, const Eigen::Vector3d& position) {
@@ -57,18 +58,20 @@ inline MountTrial mount_trial(const MountTrialParams& trial, std::uint64_t seed)
   Eigen::Vector3d place(normal(p.floor_sigma_rad), normal(p.floor_sigma_rad), normal(p.floor_sigma_m));
   Eigen::Vector2d before = Eigen::Vector2d::Zero(), odom = Eigen::Vector2d::Zero();
   double heading_before = 0;
-  for (int i = 0; i < trial.stands; ++i) {
-    const double heading = 0.4 + 2 * kPi * i / trial.stands;
+  for (int i = 0; i < trial.stands + (trial.leg_m > 0 ? 1 : 0); ++i) {
+    const bool leg = i == trial.stands;
+    const double heading = leg ? heading_before : 0.4 + 2 * kPi * i / trial.stands;
     const Eigen::Vector2d at =
-        Eigen::Vector2d(4.2, 3.9) + trial.circle_m * Eigen::Vector2d(std::sin(heading), -std::cos(heading));
-    if (!in_place) place = {normal(p.floor_sigma_rad), normal(p.floor_sigma_rad), normal(p.floor_sigma_m)};
+        leg ? Eigen::Vector2d(before + trial.leg_m * Eigen::Vector2d(std::cos(heading), std::sin(heading)))
+            : Eigen::Vector2d(4.2, 3.9) + trial.circle_m * Eigen::Vector2d(std::sin(heading), -std::cos(heading));
+    if (!in_place || leg) place = {normal(p.floor_sigma_rad), normal(p.floor_sigma_rad), normal(p.floor_sigma_m)};
     const Eigen::Vector3d tilt(place.x() + normal(p.roughness_sigma_rad), place.y() + normal(p.roughness_sigma_rad), 0);
     RigidTransform T_map_base = RigidTransform::Identity();
     T_map_base.linear() = so3_exp(tilt) * rotation({0, 0, heading});
     T_map_base.translation() = Eigen::Vector3d(at.x(), at.y(), place.z());
 
     Stand stand;
-    stand.path_m = i == 0 ? 0 : trial.circle_m * 2 * kPi / trial.stands;
+    stand.path_m = i == 0 ? 0 : leg ? trial.leg_m : trial.circle_m * 2 * kPi / trial.stands;
     if (i > 0) {
       const Eigen::Rotation2Dd mean_heading(0.5 * (heading + heading_before));
       Eigen::Vector2d moved = mean_heading.inverse() * (at - before);

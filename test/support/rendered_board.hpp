@@ -5,6 +5,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "lodestar/base/geometry/camera_model.hpp"
@@ -14,8 +15,8 @@
 
 namespace lodestar::test {
 
-/// What a camera sees of a flat picture: each pixel is the mean of rays through its area, exactly by the lens's model,
-/// blurred and with noise.
+/// What a camera sees of a flat picture: each pixel is the mean of rays through its area, by the lens's model at its
+/// middle and that model's slope (0.001 px within a pixel of a lens of 200 px), blurred and with noise.
 class BoardRenderer {
  public:
   static constexpr int kRays = 4;          ///< each way in a pixel
@@ -24,12 +25,14 @@ class BoardRenderer {
   explicit BoardRenderer(const CameraModel& camera)
       : size_(camera.intrinsics().width_px, camera.intrinsics().height_px) {
     for (int v = 0; v < size_.height; ++v)
-      for (int u = 0; u < size_.width; ++u)
+      for (int u = 0; u < size_.width; ++u) {
+        const auto bearing = camera.bearing(Eigen::Vector2d(u, v));
         for (int i = 0; i < kRays * kRays; ++i) {
           const Eigen::Vector2d within((i % kRays + 0.5) / kRays - 0.5, (i / kRays + 0.5) / kRays - 0.5);
-          const auto bearing = camera.bearing(Eigen::Vector2d(u, v) + within);
-          rays_.push_back(bearing ? bearing->direction.cast<float>().eval() : Eigen::Vector3f::Zero());
+          rays_.push_back(bearing ? (bearing->direction + bearing->J_direction_pixel * within).cast<float>().eval()
+                                  : Eigen::Vector3f::Zero());
         }
+      }
   }
 
   /// @param picture grey, its upper left corner at board (0, 0), x to the right, y down, or up when `y_up`
@@ -40,18 +43,28 @@ class BoardRenderer {
     const Eigen::Matrix3f R = T_camera_board.linear().transpose().cast<float>();
     const Eigen::Vector3f eye = (T_camera_board.inverse() * Eigen::Vector3d::Zero()).cast<float>();
     const auto scale = static_cast<float>(pixels_per_m);
+    const auto on_picture = [&](const Eigen::Vector3f& ray) {  // px; empty behind the camera
+      const Eigen::Vector3f d = R * ray;
+      const float range = -eye.z() / d.z();
+      const float x = (eye.x() + range * d.x()) * scale, y = (eye.y() + range * d.y()) * scale;
+      return range > 0 ? std::optional(cv::Point2f(x, y_up ? picture.rows - y : y)) : std::nullopt;
+    };
+    const auto within = [&](const std::optional<cv::Point2f>& at, float margin) {
+      return at && at->x >= -margin && at->y >= -margin && at->x < picture.cols + margin &&
+             at->y < picture.rows + margin;
+    };
+    const float pixel = 0.03f * scale;  // wider than a pixel's area on the board
     cv::Mat image(size_, CV_32FC1);
     const Eigen::Vector3f* ray = rays_.data();
     for (int v = 0; v < size_.height; ++v)
-      for (int u = 0; u < size_.width; ++u) {
-        float sum = 0;
-        for (int i = 0; i < kRays * kRays; ++i, ++ray) {
-          const Eigen::Vector3f d = R * *ray;
-          const float range = -eye.z() / d.z();
-          const float x = (eye.x() + range * d.x()) * scale;
-          const float y = (y_up ? picture.rows - (eye.y() + range * d.y()) * scale : (eye.y() + range * d.y()) * scale);
-          const bool hit = range > 0 && x >= 0 && y >= 0 && x < picture.cols && y < picture.rows;
-          sum += hit ? picture.at<std::uint8_t>(static_cast<int>(y), static_cast<int>(x)) : kWall;
+      for (int u = 0; u < size_.width; ++u, ray += kRays * kRays) {
+        float sum = kWall * kRays * kRays;
+        if (within(on_picture(*ray), pixel)) {
+          for (int i = 0; i < kRays * kRays; ++i) {
+            const auto at = on_picture(ray[i]);
+            if (within(at, 0))
+              sum += picture.at<std::uint8_t>(static_cast<int>(at->y), static_cast<int>(at->x)) - kWall;
+          }
         }
         image.at<float>(v, u) = 20 + 0.8f * sum / (kRays * kRays) + static_cast<float>(noise.normal());
       }

@@ -12,11 +12,13 @@ namespace lodestar::test {
 /// What somebody with a lamp and a recorder may do to the data channel.
 enum class Trick {
   kNone,
-  kReplay,  ///< sends what he recorded some seconds before, as if it were heard now
-  kRelay,   ///< sends on at once what a true beacon sends, from another place
-  kDelay,   ///< the same a frame's length later
-  kForge,   ///< sends frames of his own, unsigned or with a tag that he made up, with other coordinates
-  kJam,     ///< true frames are heard as noise
+  kReplay,     ///< sends what he recorded some seconds before, as if it were heard now
+  kRelay,      ///< sends on at once what a true beacon sends, from another place
+  kOutshine,   ///< the same, so brightly that the photodiodes tell but one sender
+  kDelay,      ///< the same as kRelay a frame's length later
+  kYesterday,  ///< sends what he recorded the day before, until the first true frame is heard and on
+  kForge,      ///< sends frames of his own, unsigned or with a tag that he made up, with other coordinates
+  kJam,        ///< true frames are heard as noise
   kEverything
 };
 
@@ -31,6 +33,8 @@ class Stranger {
     const bool everything = trick_ == Trick::kEverything;
     if (trick_ == Trick::kReplay || everything) replay(sent, out);
     if (trick_ == Trick::kRelay || everything) out.insert(out.begin(), from_elsewhere(sent, 0));
+    if (trick_ == Trick::kOutshine) outshine(out.front());
+    if (trick_ == Trick::kYesterday || everything) yesterday(sent, out);
     if (trick_ == Trick::kDelay || everything) out.push_back(from_elsewhere(sent, 0.0208));
     if (trick_ == Trick::kForge || everything) forge(sent, out);
     if (trick_ == Trick::kJam || (everything && recorded_.size() % 3 == 0))
@@ -50,6 +54,21 @@ class Stranger {
       frame.levels.push_back(static_cast<float>(level > 0.5 * std::cos(radians(75)) ? level : 0));
     }
     return frame;
+  }
+  static void outshine(RawIrFrame& frame) {
+    const RawIrFrame his = from_elsewhere(frame, 0);
+    for (std::size_t i = 0; i < frame.levels.size(); ++i) frame.levels[i] = his.levels[i] + 0.1f * frame.levels[i];
+  }
+  /// Signed by the site's own beacons, when one of them hung elsewhere.
+  void yesterday(const RawIrFrame& now, std::vector<RawIrFrame>& out) const {
+    const auto said = IrFrameDecoder(site_.link, static_cast<int>(site_.tone_table_hz.size())).decode(now);
+    if (!said) return;
+    Announcement then = *said;
+    then.superframe -= 108'000;
+    if (then.beacon == site_.beacons.front().id) then.position_map.x() += 2;
+    RawIrFrame frame = from_elsewhere(now, -0.010);
+    frame.octets = encode_ir_frame(then, site_.link);
+    out.insert(out.begin(), frame);
   }
   void replay(const RawIrFrame& now, std::vector<RawIrFrame>& out) const {
     RawIrFrame old = from_elsewhere(recorded_[recorded_.size() / 2], 0);

@@ -1,9 +1,12 @@
 // make_board_views <folder> <count>: pictures of a chessboard of 10 x 8 squares of 30 mm, in the middle of the image.
+// make_board_views <file.bag> <count>: the same, all over the image, as a recording of one a second.
 #include <cstdlib>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "lodestar/base/common/angle.hpp"
+#include "lodestar/ros/bag/recording.hpp"
 #include "support/rendered_board.hpp"
 
 int main(int argc, char** argv) {
@@ -27,13 +30,25 @@ int main(int argc, char** argv) {
     if ((row + column) % 2 == 0) picture(square) = cv::Scalar(0);
   }
   const Eigen::Vector2d middle_m = 0.5 * Eigen::Vector2d(picture.cols, picture.rows) / kPixelsPerM;
+  const std::string out = argv[1];
+  const bool recorded = out.size() > 4 && out.substr(out.size() - 4) == ".bag";
+  std::unique_ptr<RecordingWriter> bag;
+  if (recorded) bag = std::make_unique<RecordingWriter>(out);
   for (int i = 0; i < std::atoi(argv[2]); ++i) {
     test::Noise noise(static_cast<std::uint64_t>(i));
     const Eigen::Vector3d tilt(noise.uniform(-0.5, 0.5), noise.uniform(-0.5, 0.5), noise.uniform(-0.4, 0.4));
-    const RigidTransform T_camera_board =
-        test::board_in_view(middle_m, noise.uniform(0.26, 0.36), noise.uniform(0, radians(15)), 2.4 * i, tilt);
-    cv::imwrite(std::string(argv[1]) + "/shot_" + std::to_string(100 + i) + ".png",
-                renderer.render(picture, kPixelsPerM, T_camera_board, false, static_cast<std::uint64_t>(i)));
+    const double range_m = noise.uniform(0.26, 0.36);
+    const double off_axis_rad = recorded ? radians(40) * (i % 4 + 0.2) / 3.2 : noise.uniform(0, radians(15));
+    const RigidTransform T_camera_board = test::board_in_view(middle_m, range_m, off_axis_rad, 2.4 * i, tilt);
+    const cv::Mat shot = renderer.render(picture, kPixelsPerM, T_camera_board, false, static_cast<std::uint64_t>(i));
+    if (recorded) {
+      Image image = test::image_of(shot);
+      image.stamp = Stamp(std::chrono::seconds(1000 + i));
+      bag->write(image.stamp, image);
+    } else {
+      cv::imwrite(out + "/shot_" + std::to_string(100 + i) + ".png", shot);
+    }
   }
+  if (recorded) bag->close();
   return EXIT_SUCCESS;
 }

@@ -38,6 +38,19 @@ assert result["availability"] >= 0.99, result
 assert result["time_to_first_fix_s"] < 1.5, result
 PYTHON
 
+# The other kind of receiver hands over samples: they are demodulated, and without them blobs have no names.
+sed "s|site: site.yaml|site: $source/test/ros/site.yaml|; s|^ir: {|ir: {samples: true, |" "$source/test/ros/scenario.yaml" >samples.yaml
+grep -q "samples: true" samples.yaml || fail "the scenario has no ir section to ask for samples in"
+"$bin/simulate" --scenario samples.yaml --out samples.bag --duration 3
+"$bin/replay" --site "$source/test/ros/site.yaml" --bag samples.bag --out samples.csv | tee samples.txt
+"$bin/evaluate" --truth samples.bag --estimate samples.csv --json samples.json
+/usr/bin/python3 - <<'PYTHON'
+import json
+result = json.load(open("samples.json"))
+assert result["all"]["samples"] > 50 and result["all"]["position"]["mean_m"] < 0.08, result
+assert result["availability"] >= 0.99 and result["time_to_first_fix_s"] < 1.5, result
+PYTHON
+
 # Nothing found is an answer, not an error.
 head -n 1 drive.csv >empty.csv
 "$bin/evaluate" --truth drive.bag --estimate empty.csv --json empty.json
@@ -89,6 +102,14 @@ fx, fy = info["camera_matrix"]["data"][0], info["camera_matrix"]["data"][4]
 assert abs(fx / 229.4 - 1) < 0.002 and abs(fy / 229.4 - 1) < 0.002, info
 assert info["distortion_model"] == "equidistant" and info["image_width"] == 640, info
 PYTHON
+  "$bin/make_board_views" board.bag 32
+  "$bin/calibrate" --images board.bag $chessboard --out recorded.yaml
+  /usr/bin/python3 - <<'PYTHON'
+import yaml
+fx, _, cx, _, fy, cy = yaml.safe_load(open("recorded.yaml"))["camera_matrix"]["data"][:6]
+assert abs(fx / 229.4 - 1) < 0.0005 and abs(fy / 229.4 - 1) < 0.0005, (fx, fy)
+assert abs(cx - 319.5) < 0.1 and abs(cy - 239.5) < 0.1, (cx, cy)
+PYTHON
   refused 1 "at least 4" "$bin/calibrate" --images drive.bag $chessboard
   refused 1 "COLUMNSxROWS" "$bin/calibrate" --images shots --board chessboard --size 10by8 --square-m 0.03
   refused 1 "3 to 100" "$bin/calibrate" --images shots --board chessboard --size 2x8 --square-m 0.03
@@ -105,6 +126,10 @@ for angle, truth, widest in (("roll", 1.2, 0.15), ("pitch", -0.8, 0.15), ("yaw",
     value, sigma = found[angle]
     assert abs(value - truth) < 3 * sigma and sigma < widest, (angle, value, sigma)
 PYTHON
+  if grep -q "^warning" mount.txt; then fail "calibrate_mount warns of a yaw that is good enough"; fi
+  "$bin/calibrate_mount" --site "$source/test/ros/site.yaml" --bag mount.bag --vehicle guess.yaml --yaw-limit-deg 0.3 | tee mount.txt
+  grep -q "^warning    yaw: one sigma is .* above the limit of 0.30" mount.txt || fail "calibrate_mount does not warn of a weak yaw"
+  grep -q "straight leg of [0-9]* m" mount.txt || fail "calibrate_mount does not say what helps"
   refused 1 "stood 0 times" "$bin/calibrate_mount" --site "$source/test/ros/site.yaml" --bag drive.bag
   refused 1 "floor-sigma-deg" "$bin/calibrate_mount" --site "$source/test/ros/site.yaml" --bag mount.bag --floor-sigma-deg 0
 fi

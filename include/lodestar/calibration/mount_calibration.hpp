@@ -30,7 +30,13 @@ struct MountCalibration {
   int stands = 0, places = 0;
   double chi2 = 0;
   int degrees_of_freedom = 0;  ///< chi2 should be about this
+  double beacon_height_m = 0;  ///< mean, over the camera
 };
+
+/// How far straight on the truck has to drive, and stand again, for yaw's sigma to come down to the limit; 0: it is
+/// there (docs/math/mount_calibration.md, equation 3).
+/// @param limit_rad above params.odometry_slip_sigma: no leg tells more than the wheels' own slip
+double straight_leg_m(const MountCalibration& found, const MountCalibrationParams& params, double limit_rad);
 
 /// Roll, pitch and yaw of the camera in base_link from stands at several headings (docs/math/mount_calibration.md). A
 /// mount that is tilted turns with the truck, a floor that slopes does not: that tells them apart. Yaw comes from where

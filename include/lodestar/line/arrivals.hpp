@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
@@ -30,8 +31,13 @@ class Arrivals {
   bool plausible(const Announcement& announcement, const PoseEstimate& pose) const;
   /// @param announcement accepted by the beacon table
   void add(const Announcement& announcement);
+  /// The same frame once more, at the same time. Where it comes from another direction somebody sends on what he hears,
+  /// and nobody can say which of the two is the beacon: its direction is in doubt. Whether that is so.
+  bool add_again(const Announcement& announcement);
+  /// For max_age from here on the beacon's direction is not used.
+  void doubt(BeaconId beacon, Stamp stamp) { doubted_[beacon] = stamp; }
 
-  /// Those at most max_age from `now`, before or after. Ascending by id.
+  /// Those not in doubt at most max_age from `now`, before or after. Ascending by id.
   std::vector<Arrival> recent(Stamp now) const;
 
   void reset();
@@ -45,11 +51,14 @@ class Arrivals {
   /// By how much bearings may have turned until then, since the first odometry.
   double moved_rad(Stamp stamp) const;
   double turned_rad(const Heard& heard, Stamp now) const;
+  Arrival arrival(const Announcement& announcement, const ArrivalDirection& direction) const;
+  bool within_max_age(Stamp stamp, Stamp now) const { return std::abs(seconds(now - stamp)) <= seconds(max_age_); }
 
   DiodeArray array_;
   Duration max_age_;
   std::optional<RigidTransform> T_base_ir_;
   std::map<BeaconId, Heard> heard_;
+  std::map<BeaconId, Stamp> doubted_;  ///< when last
   std::optional<OdometrySample> odometry_;
   double moved_rad_ = 0;  ///< by the newest odometry
   DropCounts<NoDirection> drops_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -42,6 +43,8 @@ class DetectionStage {
   void reset();
 
   const DropCounts<FrameDrop>& drops() const { return detector_.drops(); }
+  /// Names that the direction of their beacons' announcements contradicted, so far.
+  std::uint64_t contradicted() const { return contradicted_; }
   const BeaconDetector& detector() const { return detector_; }
 
  private:
@@ -56,6 +59,7 @@ class DetectionStage {
   std::vector<BeaconId> heard_;
   std::vector<Arrival> arrivals_;
   std::optional<StateEstimate> estimate_;
+  std::uint64_t contradicted_ = 0;
 };
 
 }  // namespace lodestar

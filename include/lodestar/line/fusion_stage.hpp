@@ -35,6 +35,8 @@ class FusionStage {
 
   /// Beacons that disagree with the rest for long: left out until somebody confirms them.
   const std::set<BeaconId>& distrusted() const { return watch_.distrusted(); }
+  /// All others of those set.
+  const std::vector<Beacon>& trusted() const { return trusted_; }
   void confirm(BeaconId id);
 
   const PoseFilter& filter() const { return filter_; }
@@ -43,6 +45,7 @@ class FusionStage {
 
  private:
   bool running() const;
+  void pick_trusted();
 
   PoseFilter filter_;
   PlaceHypotheses places_;

@@ -43,6 +43,9 @@ class LocalizationLine {
 
   Result<Outcome, FrameDrop> process(const Image& image);
 
+  /// Somebody has looked after a beacon that was left out: what it last said is right. False: it was never heard.
+  bool confirm(BeaconId id);
+
   void reset();
 
   const BeaconTable& beacon_table() const { return table_; }

@@ -125,36 +125,40 @@ void name_by_code(std::vector<Sighting>& sightings, const std::vector<Beacon>& b
   }
 }
 
-/// A name that the direction of its beacon's announcement contradicts is a mirror image's, or a stranger's.
-void unname_contradicted(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
-                         const Eigen::MatrixXd& chi2, double gate_chi2) {
+/// A name that the direction of its beacon's announcement contradicts is a mirror image's, or a stranger's. How many.
+int unname_contradicted(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
+                        const Eigen::MatrixXd& chi2, double gate_chi2) {
+  int unnamed = 0;
   for (int s = 0; s < chi2.rows(); ++s)
-    for (int b = 0; b < chi2.cols(); ++b)
-      if (sightings[s].beacon == beacons[b].id && chi2(s, b) < kNever && chi2(s, b) > gate_chi2)
-        sightings[s].beacon.reset();
+    for (int b = 0; b < chi2.cols(); ++b) {
+      if (sightings[s].beacon != beacons[b].id || chi2(s, b) == kNever || chi2(s, b) <= gate_chi2) continue;
+      sightings[s].beacon.reset();
+      ++unnamed;
+    }
+  return unnamed;
 }
 
 }  // namespace
 
 BeaconNamer::BeaconNamer(const BeaconNamerParams& params) : params_(params) {}
 
-void BeaconNamer::name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
-                       const std::vector<Arrival>& arrivals, const CameraModel& camera,
-                       const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& estimate) const {
+int BeaconNamer::name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+                      const std::vector<Arrival>& arrivals, const CameraModel& camera,
+                      const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& estimate) const {
   for (Sighting& sighting : sightings.sightings) sighting.beacon.reset();
-  if (sightings.sightings.empty() || beacons.empty()) return;
+  if (sightings.sightings.empty() || beacons.empty()) return 0;
   const double gate_chi2 = chi_square_quantile(params_.gate_probability, 2);
   if (!estimate || !usable(*estimate)) {
     const Eigen::MatrixXd chi2 =
         distances_chi2(sightings.sightings, beacons, arrivals, camera, T_base_camera, params_.arrival_sigma_rad);
     name_by_place(sightings.sightings, beacons, chi2, gate_chi2, params_.margin_chi2);
     name_by_code(sightings.sightings, beacons, heard, params_.require_announcement);
-    unname_contradicted(sightings.sightings, beacons, chi2, gate_chi2);
-    return;
+    return unname_contradicted(sightings.sightings, beacons, chi2, gate_chi2);
   }
   name_by_place(sightings.sightings, beacons,
                 distances_chi2(sightings.sightings, beacons, camera, T_base_camera, *estimate, params_.model_sigma_px),
                 gate_chi2, params_.margin_chi2);
+  return 0;
 }
 
 }  // namespace lodestar

@@ -1,12 +1,18 @@
 #include "lodestar/ros/nodelets/arrival_input.hpp"
 
+#include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/line/localization_line.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
 
 namespace lodestar {
 
-ArrivalInput::ArrivalInput(const Vehicle& vehicle, const Link& link, MountLookup& mounts, Health& health)
+ArrivalInput::ArrivalInput(ros::NodeHandle& nh, const Vehicle& vehicle, const Link& link, MountLookup& mounts,
+                           Health& health)
     : mounts_(mounts), arrivals_(vehicle.diodes, heard_for(link)) {
   if (vehicle.T_base_ir) arrivals_.set_mount(*vehicle.T_base_ir);
+  doubtful_ = nh.subscribe<BeaconAnnouncement>("beacons/doubtful", 200, [this](const auto& message) {
+    arrivals_.doubt(BeaconId{message->beacon_id}, stamp_from(message->header.stamp));
+  });
   health.add_report([this](Health::Status& status) {
     status.add("photodiode mount", arrivals_.mount() ? "known" : "missing");
     arrivals_.drops().each(

@@ -37,7 +37,8 @@ void BeaconDetectionNodelet::onInit() {
 
 void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), edge_->health(), edge_->vehicle().T_base_camera);
-  arrivals_ = std::make_unique<ArrivalInput>(edge_->vehicle(), edge_->site().link, edge_->mounts(), edge_->health());
+  arrivals_ =
+      std::make_unique<ArrivalInput>(nh, edge_->vehicle(), edge_->site().link, edge_->mounts(), edge_->health());
   beacons_ = std::make_unique<BeaconInput>(
       nh, edge_->site(), edge_->health(), [](const auto&) {},
       [this](const Announcement& a) { arrivals_->arrivals().add(a); });
@@ -131,6 +132,12 @@ void BeaconDetectionNodelet::report(Health::Status& status) {
   if (!tone_faults_.empty()) status.mergeSummary(Health::Status::ERROR, describe(tone_faults_));
   if (!stage_) return;
   report_drops(stage_->drops(), status);
+  status.add("names contradicted by their direction", stage_->contradicted());
+  if (stage_->contradicted() > contradicted_ && last_named_ == 0)
+    status.mergeSummary(Health::Status::WARN,
+                        "no name: announcements come from elsewhere than their beacons are seen; mirror images, or "
+                        "somebody outshines the beacons");
+  contradicted_ = stage_->contradicted();
 }
 
 void BeaconDetectionNodelet::reset() {

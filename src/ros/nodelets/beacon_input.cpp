@@ -1,5 +1,9 @@
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 
+#include <std_msgs/UInt32MultiArray.h>
+
+#include <algorithm>
+
 #include "lodestar/ros/convert/announcement.hpp"
 
 namespace lodestar {
@@ -19,8 +23,12 @@ BeaconInput::BeaconInput(ros::NodeHandle& nh, const Site& site, Health& health,
   announcements_ = subscribe("beacons/announcements", Word::kAnnouncement);
   conflicts_ = subscribe("beacons/conflicts", Word::kConflict);
   confirmed_ = subscribe("beacons/confirmed", Word::kConfirmed);
+  distrusted_input_ = nh.subscribe<std_msgs::UInt32MultiArray>("beacons/distrusted", 10, [this](const auto& message) {
+    distrusted_ = {message->data.begin(), message->data.end()};
+    tell();
+  });
   revision_ = table_.revision();
-  on_change_(table_.beacons());
+  tell();
   health_.add_report([this](Health::Status& status) { status.add("beacons in force", table_.beacons().size()); });
 }
 
@@ -36,7 +44,14 @@ void BeaconInput::take(const BeaconAnnouncement& message, Word word) {
   if (word == Word::kConflict) table_.distrust(announcement->beacon);
   if (table_.revision() == revision_) return;
   revision_ = table_.revision();
-  on_change_(table_.beacons());
+  tell();
+}
+
+void BeaconInput::tell() {
+  std::vector<Beacon> beacons = table_.beacons();
+  const auto distrusted = [this](const Beacon& beacon) { return distrusted_.count(beacon.id.value) > 0; };
+  beacons.erase(std::remove_if(beacons.begin(), beacons.end(), distrusted), beacons.end());
+  on_change_(beacons);
 }
 
 }  // namespace lodestar

@@ -27,6 +27,7 @@ void IrDecodingNodelet::onInit() {
   const StaleLimits limits = read_stale_limits(reader);
   const double full_scale_counts = reader.number("full_scale_counts", 32767, {1, 32767});
   const std::string base_frame = reader.text("base_frame", "base_link");
+  const std::string memory = reader.text("memory", "");
   const LineSetup setup = read_line_setup(reader);
   refuse_faults(reader.faults());
   site_ = setup.site;
@@ -40,11 +41,13 @@ void IrDecodingNodelet::onInit() {
   announcements_watch_ = &health_->watch("announcements", Need::kRequired);
   health_->add_report([this](Health::Status& status) { report(status); });
   mounts_ = std::make_unique<MountLookup>(nh, base_frame);
-  arrivals_ = std::make_unique<ArrivalInput>(vehicle_, site_.link, *mounts_, *health_);
+  arrivals_ = std::make_unique<ArrivalInput>(nh, vehicle_, site_.link, *mounts_, *health_);
 
   announcements_ = nh.advertise<BeaconAnnouncement>("beacons/announcements", 200);
   conflicts_ = nh.advertise<BeaconAnnouncement>("beacons/conflicts", 200);
-  confirmed_ = nh.advertise<BeaconAnnouncement>("beacons/confirmed", 200);
+  doubtful_ = nh.advertise<BeaconAnnouncement>("beacons/doubtful", 200);
+  confirmations_ = std::make_unique<Confirmations>(nh, site_, memory);
+  confirmations_->load_into(*table_);
   get_beacons_ = private_nh.advertiseService("get_beacons", &IrDecodingNodelet::get_beacons, this);
   confirm_beacon_ = private_nh.advertiseService("confirm_beacon", &IrDecodingNodelet::confirm_beacon, this);
   start_inputs(nh);
@@ -89,9 +92,14 @@ void IrDecodingNodelet::decode(const RawIrFrame& frame) {
   if (!announcement) return table_->count(announcement.error());
   if (!plausible(*announcement)) return table_->count(IrDrop::kDirection);
   const auto refused = table_->accept(*announcement);
-  if (refused && *refused != IrDrop::kConflict) return;
   const BeaconAnnouncement out = announcement_message(*announcement, site_.frame_id);
-  if (refused) return conflicts_.publish(out);
+  if (refused == IrDrop::kSuperframe && arrivals_->arrivals().add_again(*announcement)) doubtful_.publish(out);
+  if (refused == IrDrop::kConflict) {
+    confirmations_->forget(announcement->beacon);
+    conflicts_.publish(out);
+  }
+  if (refused) return;
+  arrivals_->arrivals().add(*announcement);
   announcements_.publish(out);
   announcements_watch_->tick();
 }
@@ -117,7 +125,7 @@ bool IrDecodingNodelet::confirm_beacon(ConfirmBeacon::Request& request, ConfirmB
     return true;
   }
   const BeaconTable::Entry& entry = table_->entries().at(id);
-  confirmed_.publish(announcement_message(*entry.last, site_.frame_id));
+  confirmations_->add(*entry.last);
   std::ostringstream message;
   message << "in force at " << entry.beacon.position_map.transpose() << " m; bring the site file up to date";
   response.message = message.str();
@@ -129,6 +137,7 @@ void IrDecodingNodelet::report(Health::Status& status) {
   report_drops(table_->drops(), status);
   report_drops(demodulator_->drops(), status);
   status.add("gaps in the samples", demodulator_->gaps());
+  if (!confirmations_->fault().empty()) status.mergeSummary(Health::Status::ERROR, confirmations_->fault());
   strangers_.report(table_->drops(), table_->accepted(), status);
   status.add("beacons in force", table_->beacons().size());
   std::ostringstream conflicts;

@@ -2,8 +2,6 @@
 
 #include <ros/serialization.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,9 +9,9 @@
 #include <vector>
 
 #include "lodestar/PalletMemory.h"
-#include "lodestar/base/common/replace_file.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/transform.hpp"
+#include "lodestar/ros/nodelets/memory_file.hpp"
 
 namespace lodestar {
 namespace {
@@ -91,9 +89,7 @@ void PalletFile::load_into(PalletTracker& tracker) {
   std::ifstream stream(path_, std::ios::binary);
   const auto memory = unpacked(std::string(std::istreambuf_iterator<char>(stream), {}));
   if (memory && restore(tracker, *memory, map_frame_)) return;
-  const std::string aside = path_ + ".broken";
-  std::filesystem::rename(path_, aside, none);
-  fault_ = path_ + " cannot be understood: set aside as " + aside + ", and no pallet is known";
+  fault_ = set_aside(path_, "no pallet is known");
 }
 
 void PalletFile::save(const PalletTracker& tracker) {
@@ -105,8 +101,7 @@ void PalletFile::save(const PalletTracker& tracker) {
     memory.carried.push_back(carried.id);
     memory.seats.push_back(seat_message(carried.seat));
   }
-  fault_.clear();
-  if (!replace_file(path_, packed(memory))) fault_ = path_ + " cannot be written: " + std::strerror(errno);
+  fault_ = write_memory(path_, packed(memory));
 }
 
 }  // namespace lodestar

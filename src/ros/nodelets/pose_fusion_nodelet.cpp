@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <nav_msgs/Odometry.h>
+#include <std_msgs/UInt32MultiArray.h>
 
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
@@ -41,6 +42,7 @@ void PoseFusionNodelet::onInit() {
   pose_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 50);
   odometry_ = nh.advertise<nav_msgs::Odometry>("odometry/filtered", 50);
   integrity_ = nh.advertise<PoseIntegrity>("pose/integrity", 50);
+  distrusted_ = nh.advertise<std_msgs::UInt32MultiArray>("beacons/distrusted", 1, true);
   if (transform_ != Transform::kNone) broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
   beacons_ = std::make_unique<BeaconInput>(
@@ -55,9 +57,12 @@ void PoseFusionNodelet::onInit() {
       [this](const OdometrySample& sample) { take_odometry(sample); });
   sightings_ = nh.subscribe("beacons/sightings", 10, &PoseFusionNodelet::take_sightings, this);
   fix_ = nh.subscribe("beacons/fix", 10, &PoseFusionNodelet::take_fix, this);
-  confirmed_ = nh.subscribe<BeaconAnnouncement>(
-      "beacons/confirmed", 10,
-      [this](const BeaconAnnouncementConstPtr& message) { stage_->confirm(BeaconId{message->beacon_id}); });
+  confirmed_ =
+      nh.subscribe<BeaconAnnouncement>("beacons/confirmed", 10, [this](const BeaconAnnouncementConstPtr& message) {
+        stage_->confirm(BeaconId{message->beacon_id});
+        publish_distrusted();
+      });
+  publish_distrusted();
 }
 
 void PoseFusionNodelet::read_params(ParamReader& params) {
@@ -92,8 +97,17 @@ void PoseFusionNodelet::take_sightings(const BeaconSightingArrayConstPtr& messag
   if (camera == nullptr) return;
   if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
   camera_revision_ = camera_->revision();
+  const std::size_t distrusted = stage_->distrusted().size();
   stage_->add_sightings(*sightings);
+  if (stage_->distrusted().size() != distrusted) publish_distrusted();
   publish_if_due();
+}
+
+/// All of them at once, latched: a node that starts later knows them too.
+void PoseFusionNodelet::publish_distrusted() {
+  std_msgs::UInt32MultiArray message;
+  for (const BeaconId id : stage_->distrusted()) message.data.push_back(id.value);
+  distrusted_.publish(message);
 }
 
 void PoseFusionNodelet::take_fix(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {

@@ -29,7 +29,7 @@ void PoseSolvingNodelet::onInit() {
 
   fix_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("beacons/fix", 10);
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
-  arrivals_ = std::make_unique<ArrivalInput>(edge_->vehicle(), edge_->site().link, edge_->mounts(), health);
+  arrivals_ = std::make_unique<ArrivalInput>(nh, edge_->vehicle(), edge_->site().link, edge_->mounts(), health);
   beacons_ = std::make_unique<BeaconInput>(
       nh, edge_->site(), health, [this](const std::vector<Beacon>& beacons) { stage_->set_beacons(beacons); },
       [this](const Announcement& announcement) { take_announcement(announcement); });

@@ -45,7 +45,9 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
   } else if (known->second.in_site_file && known->second.beacon.slot != announcement.slot) {
     return IrDrop::kSlot;
   }
+  const int corrections = clock_.corrections();
   if (const auto drop = clock_.accept(announcement)) return drop;
+  if (clock_.corrections() != corrections) forgive_site_conflicts();
 
   Entry& entry = entries_[announcement.beacon];
   const auto drop =
@@ -75,6 +77,11 @@ std::optional<IrDrop> BeaconTable::compare_with_past(Entry& entry, const Announc
   }
   set_conflict(entry, true);
   return IrDrop::kConflict;
+}
+
+void BeaconTable::forgive_site_conflicts() {
+  for (auto& [id, entry] : entries_)
+    if (entry.in_site_file) set_conflict(entry, false);
 }
 
 void BeaconTable::set_conflict(Entry& entry, bool conflict) {
@@ -108,7 +115,7 @@ bool BeaconTable::confirm(BeaconId id) {
 
 void BeaconTable::confirm(const Announcement& announcement) {
   Entry& entry = entries_[announcement.beacon];
-  entry.last = announcement;
+  if (!entry.last || entry.last->stamp < announcement.stamp) entry.last = announcement;
   const Beacon& beacon = entry.beacon;
   if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement) || beacon.slot != announcement.slot)
     learn(entry, announcement);

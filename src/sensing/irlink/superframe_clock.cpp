@@ -69,7 +69,12 @@ std::optional<IrDrop> SuperframeClock::accept(const Announcement& announcement) 
       const bool in_superframe = std::abs(late) < superframe_s_ && advances(instant, announcement.beacon);
       return in_superframe ? IrDrop::kSlot : IrDrop::kSuperframe;
     }
-    early ? newest_.reset() : reset();
+    if (early) {
+      newest_.reset();
+      ++corrections_;
+    } else {
+      reset();
+    }
   } else if (old) {
     return IrDrop::kStamp;
   }

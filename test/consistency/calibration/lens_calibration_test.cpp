@@ -78,7 +78,7 @@ PaintedBoard aprilgrid() {
 }
 
 std::vector<BoardView> views_of(const PaintedBoard& painted, const CameraModel& camera, int count) {
-  const test::BoardRenderer renderer(camera);
+  static const test::BoardRenderer renderer(camera);  // the same for all boards, and slow to make
   std::vector<BoardView> views;
   for (int i = 0; i < count; ++i) {
     test::Noise noise(static_cast<std::uint64_t>(i));

@@ -47,6 +47,23 @@ void expect_honest(const test::MountTrialParams& params) {
 
 TEST(MountCalibration, HonestWhenTurningInPlace) { expect_honest({12, 0, 1}); }
 
+TEST(MountCalibration, ALegAsLongAsItAsksForMakesYawGoodEnough) {
+  const double limit_rad = radians(0.5);
+  const auto in_place = test::mount_trial({12, 0, 1}, 0);
+  const auto poor = calibrate_mount(in_place.stands, in_place.params);
+  ASSERT_TRUE(poor.ok());
+  const double leg_m = straight_leg_m(*poor, in_place.params, limit_rad);
+  EXPECT_GT(leg_m, 2);
+  EXPECT_LT(leg_m, 15);
+  const auto with_leg = test::mount_trial({12, 0, 1, leg_m}, 0);
+  const auto good = calibrate_mount(with_leg.stands, with_leg.params);
+  ASSERT_TRUE(good.ok());
+  EXPECT_LT(good->sigma.yaw_rad, 1.05 * limit_rad);
+  EXPECT_GT(good->sigma.yaw_rad, 0.6 * limit_rad) << "it asks for no more than is needed";
+  EXPECT_LT(std::abs(test::angle_errors(*good, with_leg.T_base_camera)[2]), 3 * good->sigma.yaw_rad);
+  EXPECT_EQ(straight_leg_m(*good, with_leg.params, 1.05 * limit_rad), 0);
+}
+
 TEST(MountCalibration, HonestOnACircle) { expect_honest({12, 1.5, 1}); }
 
 }  // namespace

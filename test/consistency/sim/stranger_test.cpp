@@ -16,6 +16,7 @@ struct Drive {
   std::map<Stamp, StateEstimate> estimates;
   DropCounts<IrDrop> drops;
   std::vector<Beacon> beacons;
+  std::uint64_t contradicted = 0;  ///< names, by the direction of their announcements
 };
 
 /// @param from_s since the start, when he begins
@@ -40,6 +41,7 @@ Drive drive(Trick trick, double from_s) {
   }
   out.drops = line.beacon_table().drops();
   out.beacons = line.beacon_table().beacons();
+  out.contradicted = line.detection().contradicted();
   return out;
 }
 
@@ -66,10 +68,15 @@ class StrangerTricks : public testing::Test {
   static void SetUpTestSuite() { alone_ = new Drive(drive(Trick::kNone, 0)); }
   static void TearDownTestSuite() { delete alone_; }
 
-  /// He begins with the truck, or when it knows its pose: then nothing that he does takes the pose away.
+  /// He begins with the truck, which starts as soon as without him, but where he drowns the channel; or when it knows
+  /// its pose: then nothing that he does takes the pose away.
   /// @return what he was caught by in the second case
-  DropCounts<IrDrop> caught(Trick trick) {
-    expect_unmoved(*alone_, drive(trick, 0));
+  DropCounts<IrDrop> caught(Trick trick, bool drowns = false) {
+    const Drive start = drive(trick, 0);
+    expect_unmoved(*alone_, start);
+    if (!drowns) {
+      EXPECT_EQ(start.estimates.size(), alone_->estimates.size());
+    }
     const Drive with = drive(trick, 1.5);
     expect_unmoved(*alone_, with);
     EXPECT_EQ(with.estimates.size(), alone_->estimates.size());
@@ -91,6 +98,16 @@ TEST_F(StrangerTricks, frames_that_come_from_elsewhere_are_refused_by_their_dire
   EXPECT_GT(caught(Trick::kRelay)[IrDrop::kDirection], 10u);
 }
 
+TEST_F(StrangerTricks, a_recording_that_is_heard_first_is_found_out_with_the_first_true_frame) {
+  EXPECT_GT(caught(Trick::kYesterday).total(), 10u);
+}
+
+TEST_F(StrangerTricks, whoever_outshines_the_beacons_is_seen_to_do_so) {
+  caught(Trick::kOutshine, true);
+  EXPECT_GT(drive(Trick::kOutshine, 0).contradicted, 10u);
+  EXPECT_EQ(alone_->contradicted, 0u);
+}
+
 TEST_F(StrangerTricks, late_frames_are_refused_by_their_slot_or_counter) {
   const auto drops = caught(Trick::kDelay);
   EXPECT_GT(drops[IrDrop::kSlot] + drops[IrDrop::kSuperframe] + drops[IrDrop::kDirection], 10u);
@@ -103,10 +120,10 @@ TEST_F(StrangerTricks, forged_frames_are_refused_by_their_tag) {
 }
 
 TEST_F(StrangerTricks, noise_in_the_place_of_frames_is_no_frame) {
-  EXPECT_GT(caught(Trick::kJam)[IrDrop::kUncorrectable], 10u);
+  EXPECT_GT(caught(Trick::kJam, true)[IrDrop::kUncorrectable], 10u);
 }
 
-TEST_F(StrangerTricks, everything_at_once) { EXPECT_GT(caught(Trick::kEverything).total(), 50u); }
+TEST_F(StrangerTricks, everything_at_once) { EXPECT_GT(caught(Trick::kEverything, true).total(), 50u); }
 
 }  // namespace
 }  // namespace lodestar

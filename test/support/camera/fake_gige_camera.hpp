@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <thread>
 
@@ -37,7 +38,8 @@ class FakeGigeCamera {
       execl(kProgram, kProgram, "-i", "127.0.0.1", "-r", lost_.c_str(), nullptr);
       _exit(127);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // until it listens
+    for (int waited_ms = 0; !listens() && waited_ms < 3000; waited_ms += 5)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   void unplug() {
     if (process_ <= 0) return;
@@ -49,6 +51,14 @@ class FakeGigeCamera {
   void thaw() { kill(process_, SIGCONT); }
 
  private:
+  /// Whether somebody has the control port of GigE Vision cameras on 127.0.0.1, as the kernel's table has it.
+  static bool listens() {
+    std::ifstream table("/proc/net/udp");
+    for (std::string line; std::getline(table, line);)
+      if (line.find("0100007F:0F74") != std::string::npos) return true;
+    return false;
+  }
+
   static constexpr const char* kProgram = "/usr/bin/arv-fake-gv-camera-0.8";
   int lock_ = open("/tmp/lodestar_fake_gige_camera.lock", O_CREAT | O_RDWR | O_CLOEXEC, 0666);
   std::string lost_;

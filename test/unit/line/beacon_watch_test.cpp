@@ -61,5 +61,63 @@ TEST(BeaconWatch, hours_of_not_seeing_are_no_disagreement) {
   EXPECT_TRUE(watch.distrusted().empty());
 }
 
+/// Beacons 1 and 2 at 4 m over a camera that looks up, 1 a metre to the side; tones as given.
+class Astray : public testing::Test {
+ protected:
+  void SetUp() override {
+    CameraIntrinsics lens;
+    lens.width_px = 320;
+    lens.height_px = 240;
+    lens.fx_px = lens.fy_px = 90;
+    lens.cx_px = 160;
+    lens.cy_px = 120;
+    camera_.model = CameraModel::create(lens).value();
+  }
+  static Beacon beacon(std::uint32_t id, const Eigen::Vector3d& position, ToneSet tones) {
+    Beacon out;
+    out.id = BeaconId{id};
+    out.position_map = position;
+    out.tones = tones;
+    return out;
+  }
+  static Sighting blob(ToneSet tones, std::optional<BeaconId> beacon = std::nullopt) {
+    Sighting out;
+    out.tones = tones;
+    out.beacon = beacon;
+    out.pixel = {50, 50};
+    return out;
+  }
+  std::set<BeaconId> found(const std::vector<Sighting>& blobs, const std::vector<Beacon>& beacons) const {
+    return astray({Stamp(), blobs}, beacons, camera_, RigidTransform::Identity());
+  }
+  CameraMount camera_;
+};
+
+TEST_F(Astray, a_code_on_a_blob_without_a_name_whose_beacon_is_in_view) {
+  const Beacon here = beacon(1, {1, 0, 4}, {1, 2}), elsewhere = beacon(2, {90, 0, -40}, {1, 2});
+  EXPECT_EQ(found({blob({1, 2})}, {here, elsewhere}), std::set<BeaconId>{BeaconId{1}});
+  EXPECT_TRUE(found({blob({1, 3})}, {here}).empty()) << "nobody's code";
+  EXPECT_TRUE(found({blob({1, 2})}, {elsewhere}).empty()) << "not in view";
+  EXPECT_TRUE(found({blob({1, 2}, BeaconId{1})}, {here}).empty()) << "it is where it should be";
+}
+
+TEST_F(Astray, in_doubt_nobody) {
+  const Beacon one = beacon(1, {1, 0, 4}, {1, 2}), other = beacon(2, {-1, 0, 4}, {1, 2});
+  EXPECT_TRUE(found({blob({1, 2})}, {one, other}).empty()) << "either of the two";
+  Sighting beside = blob({1, 2});
+  beside.pixel = {172, 125};  // one should be at (182, 120), other at (138, 120)
+  EXPECT_EQ(found({beside}, {one, other}), std::set<BeaconId>{BeaconId{1}});
+  EXPECT_TRUE(found({blob({1, 2}), blob({1, 2})}, {one}).empty()) << "a mirror image beside it";
+  EXPECT_TRUE(found({blob({1, 2}, BeaconId{1}), blob({1, 2})}, {one}).empty());
+}
+
+TEST(BeaconWatch, a_minute_astray_counts_whatever_the_filter_thinks) {
+  BeaconWatch watch;
+  for (int second = 0; second < 62; ++second)
+    watch.add(Stamp(std::chrono::seconds(1000 + second)), {check(1, false), check(2, false), check(3, false)},
+              {BeaconId{1}});
+  EXPECT_EQ(watch.distrusted(), std::set<BeaconId>{BeaconId{1}});
+}
+
 }  // namespace
 }  // namespace lodestar

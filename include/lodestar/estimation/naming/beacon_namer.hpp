@@ -34,9 +34,10 @@ class BeaconNamer {
   ///              its beacons is heard
   /// @param estimate pose of base_link for about the sightings' stamp; empty: not known
   /// @param arrivals where recent announcements came from; may be empty
-  void name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
-            const std::vector<Arrival>& arrivals, const CameraModel& camera, const RigidTransform& T_base_camera,
-            const std::optional<PoseEstimate>& estimate) const;
+  /// @return how many names those directions contradict: mirror images, or somebody who sends on what he hears
+  int name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
+           const std::vector<Arrival>& arrivals, const CameraModel& camera, const RigidTransform& T_base_camera,
+           const std::optional<PoseEstimate>& estimate) const;
 
  private:
   BeaconNamerParams params_;

@@ -56,6 +56,7 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   std::deque<Motion> early_motion_;  ///< likewise
   Duration heard_for_{};
   std::size_t last_sightings_ = 0, last_named_ = 0;
+  std::uint64_t contradicted_ = 0;  ///< names, at the last report
   ros::Publisher sightings_;
   image_transport::Subscriber images_;
 };

@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "lodestar/BeaconAnnouncement.h"
@@ -12,9 +13,9 @@
 namespace lodestar {
 
 /// The beacons in force, as a node downstream of the IR decoder knows them: the site file, `beacons/announcements`,
-/// `beacons/conflicts`, where the decoder sends announcements of beacons that are out of force, and
-/// `beacons/confirmed`, where it sends the word of those that somebody has looked after. A node that starts late has
-/// heard all of them after one superframe.
+/// `beacons/conflicts`, where the decoder sends announcements of beacons that are out of force, `beacons/confirmed`,
+/// where it sends the word of those that somebody has looked after, and `beacons/distrusted`, where the filter names
+/// those that are not seen where they should be. A node that starts late has heard all of them after one superframe.
 class BeaconInput {
  public:
   BeaconInput(
@@ -27,14 +28,16 @@ class BeaconInput {
  private:
   enum class Word { kAnnouncement, kConflict, kConfirmed };
   void take(const BeaconAnnouncement& message, Word word);
+  void tell();
 
   Health& health_;
   StreamWatch& watch_;
   BeaconTable table_;
   std::uint64_t revision_ = 0;
+  std::set<std::uint32_t> distrusted_;
   std::function<void(const std::vector<Beacon>&)> on_change_;
   std::function<void(const Announcement&)> on_announcement_;
-  ros::Subscriber announcements_, conflicts_, confirmed_;
+  ros::Subscriber announcements_, conflicts_, confirmed_, distrusted_input_;
 };
 
 }  // namespace lodestar

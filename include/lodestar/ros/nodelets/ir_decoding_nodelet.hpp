@@ -11,6 +11,7 @@
 #include "lodestar/IrSamples.h"
 #include "lodestar/line/time_jump.hpp"
 #include "lodestar/ros/nodelets/arrival_input.hpp"
+#include "lodestar/ros/nodelets/confirmations.hpp"
 #include "lodestar/ros/nodelets/estimate_input.hpp"
 #include "lodestar/ros/nodelets/health.hpp"
 #include "lodestar/ros/nodelets/stranger_watch.hpp"
@@ -49,7 +50,8 @@ class IrDecodingNodelet : public nodelet::Nodelet {
   TimeJump jump_;
   StreamWatch* frames_watch_ = nullptr;
   StreamWatch* announcements_watch_ = nullptr;
-  ros::Publisher announcements_, conflicts_, confirmed_;
+  std::unique_ptr<Confirmations> confirmations_;
+  ros::Publisher announcements_, conflicts_, doubtful_;
   ros::Subscriber frames_, samples_;
   ros::ServiceServer get_beacons_, confirm_beacon_;
 };

@@ -7,7 +7,7 @@
 namespace lodestar {
 
 /// What a tracker knows, in a file that outlives the node: a PalletMemory as it goes over the wire, behind its
-/// checksum. It is written whole beside the old one, synced and put in its place, so that a reader finds either.
+/// checksum.
 class PalletFile {
  public:
   /// @param path empty: nothing is kept

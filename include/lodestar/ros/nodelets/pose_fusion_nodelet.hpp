@@ -33,6 +33,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   void publish_map_odom(const OdometrySample& sample);
   void report(Health::Status& status);
   void report_liars(Health::Status& status);
+  void publish_distrusted();
   void reset();
 
   double publish_rate_hz_ = 50;
@@ -52,7 +53,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   StreamWatch* pose_watch_ = nullptr;
   int camera_revision_ = 0;
   std::optional<Stamp> published_, transformed_;
-  ros::Publisher pose_, odometry_, integrity_;
+  ros::Publisher pose_, odometry_, integrity_, distrusted_;
   ros::Subscriber sightings_, fix_, confirmed_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
 };

@@ -17,7 +17,8 @@ namespace lodestar {
 /// - In the site file: an announcement from another slot is dropped (kSlot). One that differs by more than 3 sigma on
 ///   any axis of map (sigma: the file's sigma_m with the rounding to mm) or in its tones is a conflict: it is dropped
 ///   and takes the beacon out of force until somebody confirms it, for a beacon that was moved or swapped once may hang
-///   anywhere. The file's position is the one in use.
+///   anywhere. The file's position is the one in use. On a site with a key a conflict that a recording made, heard
+///   before the first true frame, is taken back with that frame.
 /// - Not in the site file: the first announcement puts the beacon in force where it says, with sigma_m 0.01 when it
 ///   calls itself surveyed and 0.10 when not, and later ones within 3 sigma keep it up to date. One that jumps or
 ///   changes tones is a conflict and takes it out of force; the third in a row that agree with one another is believed.
@@ -72,6 +73,7 @@ class BeaconTable {
   std::optional<IrDrop> judge(const Announcement& announcement);
   std::optional<IrDrop> compare_with_site(Entry& entry, const Announcement& announcement);
   std::optional<IrDrop> compare_with_past(Entry& entry, const Announcement& announcement);
+  void forgive_site_conflicts();
   void set_conflict(Entry& entry, bool conflict);
   void learn(Entry& entry, const Announcement& announcement);
 

@@ -21,7 +21,8 @@ namespace lodestar {
 /// - A clock that was set, or beacons that were started anew: five refused frames in a row that are in phase with one
 ///   another (none accepted in between) are the new phase; the fifth is accepted. On a site with a key the counter
 ///   must lie ahead of the newest, too: old frames cannot be replayed there, however many.
-/// - On a site with a key a frame that comes before its time is true at once: a stranger can only send late what beacons
+/// - On a site with a key a frame that comes before its time is true at once: a stranger can only send late what
+/// beacons
 ///   have sent before. It was the phase that was late, as a stranger's first word made it.
 ///
 /// The counter wraps around at 2^32.
@@ -33,6 +34,9 @@ class SuperframeClock {
 
   /// Takes the frame's time as the newest, or says why not.
   std::optional<IrDrop> accept(const Announcement& announcement);
+
+  /// How often the phase was found late: what was accepted before may have been a stranger's recording.
+  int corrections() const { return corrections_; }
 
   /// Forgets everything: the next frame is believed.
   void reset();
@@ -55,6 +59,7 @@ class SuperframeClock {
   std::map<BeaconId, std::uint32_t> superframes_;  ///< the last of each beacon
   std::optional<Instant> refused_;                 ///< the last frame out of phase
   int refused_run_ = 0;                            ///< how many of those are in phase with one another
+  int corrections_ = 0;
 };
 
 }  // namespace lodestar

@@ -46,7 +46,7 @@ TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
   const SourceInfo info = source->start(settings_, memory_.allocator());
   EXPECT_NEAR(info.exposure_s, 0.002, 1e-9);
   EXPECT_EQ(info.clock.frame_id_bits, 16);
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 10; ++i) {
     const auto frame = source->next(std::chrono::seconds(1));
     ASSERT_TRUE(frame.ok()) << name(frame.error());
     EXPECT_TRUE(memory_.gave(frame->memory.data));
@@ -63,7 +63,8 @@ TEST_F(AravisSourceTest, SixteenBitsAndAnotherSize) {
   settings_.height_px = 200;
   const auto source = open_source(FakeGigeCamera::kUri);
   source->start(settings_, memory_.allocator());
-  const auto frame = source->next(std::chrono::seconds(1));
+  auto frame = source->next(std::chrono::seconds(1));
+  for (int i = 0; !frame && i < 20; ++i) frame = source->next(std::chrono::seconds(1));  // however slow the machine is
   ASSERT_TRUE(frame.ok());
   EXPECT_EQ(frame->bits, 16);
   EXPECT_EQ(frame->width_px, 320);
@@ -90,13 +91,13 @@ TEST_F(AravisSourceTest, LimitsAreTheCameras) {
 TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const FakeGigeCamera camera;
   Capture capture = this->capture();
-  ASSERT_TRUE(gets(capture, 60));
+  ASSERT_TRUE(gets(capture, 40));
   EXPECT_EQ(capture.report().clock_restarts, 0u);
   // It stamps by the host's own clock, then paints the frame and sends it: stamps are that least delay behind its own
   // time, and come more evenly than the arrivals.
   std::vector<double> stamp_delays_s, arrival_delays_s;
   std::vector<DeviceFrame> frames;
-  while (frames.size() < 60) {
+  while (frames.size() < 40) {
     const auto captured = capture.next();
     if (!captured) continue;
     frames.push_back(captured->frame);
@@ -121,7 +122,7 @@ TEST_F(AravisSourceTest, WaitsForItsTrigger) {
   EXPECT_THROW(capture().open(), CameraRefusal);
   settings_.trigger = "Software";
   Capture capture = this->capture();
-  for (int i = 0; i < 10; ++i) EXPECT_FALSE(capture.next());
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(capture.next());  // forty frames' time
   EXPECT_EQ(capture.report().state, CaptureState::kRunning);
 }
 
@@ -151,9 +152,10 @@ TEST_F(AravisSourceTest, KilledAndStartedAgain) {
 }
 
 TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {
-  const FakeGigeCamera camera(1);
+  const FakeGigeCamera camera(2);
   Capture capture = this->capture();
-  EXPECT_TRUE(gets(capture, 100));
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (capture.report().dropped == 0 && std::chrono::steady_clock::now() < end) ASSERT_TRUE(gets(capture, 10));
   EXPECT_GT(capture.report().missed[NoFrame::kIncomplete], 0u);
   EXPECT_GE(capture.report().dropped, 1u);
 }

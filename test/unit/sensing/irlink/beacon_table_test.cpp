@@ -78,6 +78,21 @@ TEST(BeaconTable, a_conflict_takes_the_beacon_out_until_it_is_confirmed) {
   EXPECT_EQ(table.revision(), 2u);
 }
 
+// Somebody plays what he recorded before beacon 1 was hung up anew, and is heard before any beacon.
+TEST(BeaconTable, a_conflict_that_a_recording_made_goes_with_the_first_true_frame) {
+  Site site = site_with_list();
+  const auto conflicts_left = [&] {
+    BeaconTable table(site);
+    const Eigen::Vector3d before = kPosition + Eigen::Vector3d(2, 0, 0);
+    EXPECT_EQ(table.accept(heard(1, 5, 1000, before)), IrDrop::kConflict);
+    table.accept(heard(2, 505, 1000 - 500 * 0.8));
+    return entry(table, 1).conflict;
+  };
+  EXPECT_TRUE(conflicts_left()) << "without a key nobody can tell which is the recording";
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  EXPECT_FALSE(conflicts_left());
+}
+
 TEST(BeaconTable, a_beacon_that_was_hung_up_anew_is_used_where_it_says_once_confirmed) {
   const Eigen::Vector3d moved = kPosition + Eigen::Vector3d(0, 2, 0);
   BeaconTable table(site_with_list());

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <map>
+#include <string>
+
+#include "lodestar/base/measurement/announcement.hpp"
+#include "lodestar/base/site/site.hpp"
+#include "lodestar/sensing/irlink/beacon_table.hpp"
+
+namespace lodestar {
+
+/// Beacons of the site file that somebody has confirmed where they say that they hang, and the topic that tells it,
+/// `beacons/confirmed`: each node that starts later is told then. Kept in a file, they outlive this node too, each
+/// until the site file is changed for it.
+class Confirmations {
+ public:
+  /// @param memory path of that file; empty: none
+  Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory);
+
+  /// No file is no fault; one that cannot be understood is set aside as `<path>.broken`.
+  void load_into(BeaconTable& table);
+  void add(const Announcement& announcement);
+  /// The beacon contradicts again what was confirmed.
+  void forget(BeaconId id);
+
+  /// What went wrong last with the file; empty: nothing.
+  const std::string& fault() const { return fault_; }
+
+ private:
+  const Beacon* in_site(BeaconId id) const;
+  std::map<BeaconId, Announcement> read() const;
+  void save();
+
+  const Site& site_;
+  std::string memory_, fault_;
+  std::map<BeaconId, Announcement> confirmed_;
+  ros::Publisher publisher_;
+};
+
+}  // namespace lodestar

@@ -1,0 +1,106 @@
+// A beacon hangs half a metre from where the site file has it: it is found out, left out, and used again once somebody
+// has looked after it, whether it says so itself or not.
+
+#include <gtest/gtest.h>
+
+#include "lodestar/sim/line_run.hpp"
+
+namespace lodestar {
+namespace {
+
+const BeaconId kMoved{13};
+
+class MovedBeacon : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto loaded = sim::load_scenario(std::string(LODESTAR_SOURCE_DIR) + "/test/ros/scenario.yaml");
+    ASSERT_TRUE(loaded.ok());
+    told_ = *loaded;
+    told_.duration_s = 80;
+    told_.route.waypoints.back().stop_s = 100;
+    sim::Scenario hung = told_;
+    for (Beacon& beacon : hung.site.beacons)
+      if (beacon.id == kMoved) beacon.position_map += Eigen::Vector3d(-0.3, 0.4, 0);
+    simulation_ = std::make_unique<sim::Simulation>(hung);
+    line_ = std::make_unique<LocalizationLine>(sim::make_line(told_));
+  }
+
+  /// Until `stop` says so, at most to the end of the drive. No pose may be further off than it admits.
+  template <class Stop>
+  bool drive(bool beacon_admits_it, Stop&& stop) {
+    while (const auto event = simulation_->next()) {
+      sim::Event heard = *event;
+      if (auto* frame = std::get_if<RawIrFrame>(&heard.data); frame && !beacon_admits_it) say_as_told(*frame);
+      const auto outcome = sim::feed(*line_, heard);
+      if (!outcome || !outcome->estimate) continue;
+      check(*outcome);
+      if (stop()) return true;
+    }
+    return false;
+  }
+
+  bool in_force() const {
+    const auto beacons = line_->fusion().trusted();
+    return std::any_of(beacons.begin(), beacons.end(), [](const Beacon& b) { return b.id == kMoved; });
+  }
+  /// Bearings to it correct the pose.
+  bool used() const {
+    for (const BeaconCheck& check : line_->fusion().filter().beacon_checks())
+      if (check.beacon == kMoved) return !check.excluded && check.gated == 0;
+    return false;
+  }
+  double worst_m() const { return worst_m_; }
+
+  std::unique_ptr<LocalizationLine> line_;
+
+ private:
+  void say_as_told(RawIrFrame& frame) const {
+    const IrFrameDecoder decoder(told_.site.link, static_cast<int>(told_.site.tone_table_hz.size()));
+    const auto decoded = decoder.decode(frame);
+    if (!decoded || decoded->beacon != kMoved) return;
+    Announcement said = *decoded;
+    for (const Beacon& beacon : told_.site.beacons)
+      if (beacon.id == kMoved) said.position_map = beacon.position_map;
+    frame.octets = encode_ir_frame(said, told_.site.link);
+  }
+  void check(const LocalizationLine::Outcome& outcome) {
+    const double time_s = seconds(outcome.sightings.stamp - told_.start);
+    const Eigen::Vector2d off =
+        (outcome.estimate->T_map_base.translation() - simulation_->truck().motion(time_s).T_map_base.translation())
+            .head<2>();
+    worst_m_ = std::max(worst_m_, off.norm());
+  }
+
+  sim::Scenario told_;
+  std::unique_ptr<sim::Simulation> simulation_;
+  double worst_m_ = 0;
+};
+
+TEST_F(MovedBeacon, that_says_so_itself_is_left_out_until_it_is_confirmed) {
+  ASSERT_TRUE(drive(true, [&] { return !in_force(); }));
+  int images = 0;
+  EXPECT_FALSE(drive(true, [&] { return in_force() || ++images == 100; }) && in_force());
+  EXPECT_TRUE(line_->beacon_table().entries().at(kMoved).conflict);
+  EXPECT_LT(worst_m(), 0.1);
+
+  ASSERT_TRUE(line_->confirm(kMoved));
+  EXPECT_TRUE(drive(true, [&] { return used(); }));
+  EXPECT_LT(worst_m(), 0.1);
+}
+
+TEST_F(MovedBeacon, that_does_not_know_it_is_found_out_by_the_others) {
+  ASSERT_TRUE(drive(false, [&] { return line_->fusion().distrusted().count(kMoved) > 0; }));
+  EXPECT_EQ(line_->fusion().distrusted().size(), 1u);
+  EXPECT_FALSE(in_force());
+  EXPECT_FALSE(line_->beacon_table().entries().at(kMoved).conflict) << "it says what the site file says";
+  EXPECT_LT(worst_m(), 0.1);
+
+  // It learns where it hangs, and somebody says that this is right.
+  ASSERT_TRUE(drive(true, [&] { return line_->beacon_table().entries().at(kMoved).conflict; }));
+  ASSERT_TRUE(line_->confirm(kMoved));
+  EXPECT_TRUE(drive(true, [&] { return used(); }));
+  EXPECT_LT(worst_m(), 0.1);
+}
+
+}  // namespace
+}  // namespace lodestar
