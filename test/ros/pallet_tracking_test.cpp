@@ -41,14 +41,16 @@ std::string sscc(int number) {
 class Node {
  public:
   Node() {
-    pid_ = ::fork();
-    if (pid_ != 0) return;
     const std::string program = LODESTAR_PROGRAM_DIR "/pallet_tracking_node";
     const auto given = [](const std::string& name) {
       return "_" + name + ":=" + ros::param::param<std::string>("/" + name, "");
     };
-    ::execl(program.c_str(), program.c_str(), "__name:=pallet_tracking", given("site").c_str(),
-            given("vehicle").c_str(), given("memory").c_str(), nullptr);
+    // Before the fork: the child has none of this process's threads, and a lock that one of them held stays locked.
+    const std::string site = given("site"), vehicle = given("vehicle"), memory = given("memory");
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    ::execl(program.c_str(), program.c_str(), "__name:=pallet_tracking", site.c_str(), vehicle.c_str(), memory.c_str(),
+            nullptr);
     ::_exit(127);
   }
   ~Node() { end(SIGTERM); }
