@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "lodestar/evaluation/plot.hpp"
+#include "lodestar/evaluation/curve_plot.hpp"
 #include "support/frame_trials.hpp"
 
 int main(int argc, char** argv) {

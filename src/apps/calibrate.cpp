@@ -14,7 +14,7 @@
 #include "cli/command_line.hpp"
 #include "cli/progress_bar.hpp"
 #include "lodestar/calibration/lens_calibration.hpp"
-#include "lodestar/evaluation/plot.hpp"
+#include "lodestar/evaluation/lens_plot.hpp"
 #include "lodestar/ros/bag/recording.hpp"
 
 namespace lodestar {

@@ -12,8 +12,8 @@
 #include "cli/progress_bar.hpp"
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/evaluation/estimate_csv.hpp"
-#include "lodestar/evaluation/plot.hpp"
 #include "lodestar/evaluation/trajectory_error.hpp"
+#include "lodestar/evaluation/trajectory_plot.hpp"
 #include "lodestar/ros/bag/recording.hpp"
 
 namespace lodestar {

@@ -12,7 +12,7 @@
 
 #include "cli/command_line.hpp"
 #include "cli/progress_bar.hpp"
-#include "lodestar/evaluation/plot.hpp"
+#include "lodestar/evaluation/error_map_plot.hpp"
 #include "lodestar/evaluation/trajectory_error.hpp"
 #include "lodestar/sim/line_run.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "cli/command_line.hpp"
 #include "lodestar/base/common/angle.hpp"
-#include "lodestar/evaluation/plot.hpp"
+#include "lodestar/evaluation/site_plot.hpp"
 #include "lodestar/planning/code_plan.hpp"
 
 namespace lodestar {

@@ -1,11 +1,15 @@
-#include "lodestar/evaluation/plot.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+
+#include "lodestar/evaluation/error_map_plot.hpp"
+#include "lodestar/evaluation/lens_plot.hpp"
+#include "lodestar/evaluation/plot_error.hpp"
+#include "lodestar/evaluation/site_plot.hpp"
+#include "lodestar/evaluation/trajectory_plot.hpp"
 
 namespace lodestar {
 namespace {
