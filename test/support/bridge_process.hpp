@@ -5,19 +5,8 @@
 #include <unistd.h>
 
 #include <string>
-#include <vector>
-
-#include "lodestar/wms/mqtt_link.hpp"
 
 namespace lodestar::test {
-
-inline MqttParams mqtt(const std::string& client, std::vector<std::string> brokers) {
-  MqttParams params;
-  params.client_id = client;
-  params.brokers = std::move(brokers);
-  params.connect_timeout_s = 1;  // Paho at times notices a refused connection only then
-  return params;
-}
 
 /// support/bridge_worker.cpp as a process that can be killed.
 class Worker {

@@ -7,7 +7,6 @@
 #include "lodestar/wms/bridge.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
 #include "support/bridge_params.hpp"
-#include "support/bridge_process.hpp"
 #include "support/pallet_changes.hpp"
 #include "support/real_time.hpp"
 

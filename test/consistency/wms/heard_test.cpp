@@ -33,6 +33,7 @@ class MasterControl {
   void poll() {
     for (const LinkEvent& event : link_.take()) {
       if (std::holds_alternative<LinkUp>(event)) up_ = true, link_.subscribe("uagv/v2/lodestar/truck7/#", 2);
+      if (std::holds_alternative<LinkDown>(event)) link_.connect(0, {});
       if (const auto* message = std::get_if<MqttMessage>(&event)) heard.push_back(*message);
     }
   }
