@@ -45,13 +45,15 @@ void CommonMotion::refine(Tracks& tracks, std::size_t count, FrameWindow& window
 
 int CommonMotion::gather_velocities(const Tracks& tracks, std::size_t count) {
   constexpr int kHits = 6;               // after which a velocity is worth its variance
+  constexpr int kFirstUnseen = 4;        // frames; at the start all that were seen of late bear witness
   constexpr double kHeightShare = 0.15;  // by which heights make a blob's velocity differ, one sigma
+  const int most_unseen = ego_.known() ? 0 : kFirstUnseen;
   int resting = 0;
   flows_.clear();
   for (std::size_t i = 0; i < count; ++i) {
     const PathFilter& path = tracks[i].path();
     resting += path.still();
-    if (path.still() || !tracks[i].seen() || tracks[i].hits() < kHits) continue;
+    if (path.still() || tracks[i].unseen_frames() > most_unseen || tracks[i].hits() < kHits) continue;
     Eigen::Vector2d whole = path.velocity_px_s();
     if (ego_.known()) whole += jacobians_[i] * ego_.twist();
     const double sigma = 1 + kHeightShare * whole.norm();

@@ -60,7 +60,7 @@ EgoMotion::Fit EgoMotion::fit(const std::vector<Flow>& flows, const Twist& sigma
 bool EgoMotion::start(const std::vector<Flow>& flows, double interval_s) {
   constexpr double kLeastStepPx = 0.1;
   const auto count = static_cast<int>(flows.size());
-  if (count < kLeastBlobs) return false;
+  if (count <= kLeastBlobs) return false;  // three do not tell the kinds of motion apart
   Fit best;
   for (const Twist& freedom : freedoms()) {
     const Fit motion = fit(flows, kFirstSigma * freedom);
