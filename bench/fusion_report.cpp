@@ -15,21 +15,21 @@ namespace lodestar::test {
 namespace {
 
 constexpr char kUsage[] =
-    "report_fusion nees [seeds, 50]          NEES and NIS of each scenario beside their 95 %% bands\n"
+    "report_fusion nees [seeds, 50 [first, 1]] NEES and NIS of each scenario beside their 95 %% bands\n"
     "report_fusion integrity [drives, 10000] error against protection level in drives with a fault injected\n"
     "report_fusion densities [seeds, 10]     bearings (tight) beside fixes (loose) as beacons get fewer\n"
     "report_fusion coasting [seeds, 20]      one beacon for 10 s, none for 5 s, kidnapped\n";
 
-void nees(int seeds) {
+void nees(int seeds, int first) {
   const Band band3 = nees_band(seeds, 3), band6 = nees_band(seeds, 6);
-  std::printf("%d seeds; 95 %% bands of the mean: NEES of 3 %.2f to %.2f, of 6 %.2f to %.2f\n\n", seeds, band3.low,
-              band3.high, band6.low, band6.high);
+  std::printf("seeds %d to %d; 95 %% bands of the mean: NEES of 3 %.2f to %.2f, of 6 %.2f to %.2f\n\n", first,
+              first + seeds - 1, band3.low, band3.high, band6.low, band6.high);
   std::printf("%-28s %8s %8s %10s %8s %8s %9s %9s\n", "scenario", "NEES/3", "NEES/6", "NIS beac.", "fixes", "wheels",
               "rmse mm", "yaw deg");
   std::vector<NeesScenario> scenarios = nees_scenarios();
   scenarios.push_back(white_noise());
   for (const NeesScenario& scenario : scenarios) {
-    const NeesOutcome out = run_nees(scenario, seeds);
+    const NeesOutcome out = run_nees(scenario, seeds, first);
     std::printf("%-28s %7.2f%s %7.2f%s %10.2f %8.2f %8.2f %9.1f %9.3f\n", scenario.name.c_str(), out.nees3,
                 band3.holds(out.nees3) ? " " : "!", out.nees6, band6.holds(out.nees6) ? " " : "!",
                 out.innovations.bearings.mean(), out.innovations.fixes.mean(), out.innovations.wheels.mean(),
@@ -172,8 +172,9 @@ void coasting(int seeds) {
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   const int number = argc > 2 ? std::atoi(argv[2]) : 0;
+  const int first = argc > 3 ? std::atoi(argv[3]) : 1;
   if (what == "nees")
-    lodestar::test::nees(number > 0 ? number : 50);
+    lodestar::test::nees(number > 0 ? number : 50, first);
   else if (what == "integrity")
     lodestar::test::integrity(number > 0 ? number : 10000);
   else if (what == "densities")

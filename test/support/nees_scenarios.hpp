@@ -74,10 +74,10 @@ struct NeesOutcome {
   InnovationMeans innovations;  ///< over all seeds
 };
 
-/// Seeds 1 to `seeds`.
-inline NeesOutcome run_nees(const NeesScenario& scenario, int seeds) {
+/// `seeds` seeds from `first` on.
+inline NeesOutcome run_nees(const NeesScenario& scenario, int seeds, int first = 1) {
   NeesOutcome out;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = first; seed < first + seeds; ++seed) {
     const TruckDrive drive(scenario.plan, static_cast<std::uint64_t>(seed));
     TruckSensors sensors(drive, scenario.errors, static_cast<std::uint64_t>(1000 + seed), scenario.spacing_m,
                          scenario.imu_position_base);
