@@ -65,8 +65,8 @@ void print_row(const char* what, const TrajectoryError::Part& part) {
 }
 
 void print(const TrajectoryError& error) {
-  std::printf("%-9s %7s  %39s  %15s  %7s  %6s  %s\n", "", "", "horizontal error, mm", "yaw error, deg", "z, mm",
-              "nees", "its 95 % band");
+  std::printf("%-9s %7s  %39s  %15s  %7s  %6s  %s\n", "", "", "horizontal error, mm", "yaw error, deg", "z, mm", "nees",
+              "its 95 % band");
   std::printf("%-9s %7s  %7s %7s %7s %7s %7s  %7s %7s  %7s  %6s\n", "", "samples", "mean", "rmse", "median", "p95",
               "max", "mean", "p95", "mean", "(3)");
   print_row("all", error.all);

@@ -13,7 +13,8 @@ namespace {
 constexpr int kTrials = 600;
 constexpr std::size_t kSamples = 500;
 
-/// First-order Gauss-Markov errors of x, y and yaw, `actual` times the sigma that is claimed. keep 0: white; 1: constant.
+/// First-order Gauss-Markov errors of x, y and yaw, `actual` times the sigma that is claimed. keep 0: white; 1:
+/// constant.
 std::vector<Eigen::Vector3d> errors(double keep, double actual, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

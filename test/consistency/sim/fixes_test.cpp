@@ -35,8 +35,8 @@ void add(Outcome& out, const StateEstimate& estimate, const RigidTransform& trut
   ++out.rows;
 }
 
-/// The scenario of scripts/compare_filters, two drives of 75 s, the first 5 s left out. In seed 19 the wheels slip by 3 %
-/// after 66 s, which a gate of one sample lets pass: then the true speed was shut out, and the error grew to 0.14 m.
+/// The scenario of scripts/compare_filters, two drives of 75 s, the first 5 s left out. In seed 19 the wheels slip by 3
+/// % after 66 s, which a gate of one sample lets pass: then the true speed was shut out, and the error grew to 0.14 m.
 Outcome run(const std::string& name) {
   auto scenario = load_scenario(kConfig + "scenarios/" + name + ".yaml").value();
   const Vehicle vehicle = load_vehicle(kConfig + "vehicle_fixes.yaml").value();
