@@ -49,7 +49,7 @@ struct PoseFilterParams {
   double mount_drift_rad_sqrt_s = 1e-5;                ///< random walk
   double scale_drift_sqrt_s = 1e-4;                    ///< random walk of the wheels' scales
 
-  double level_sigma_rad = 0.005;             ///< base_link's tilt at large: floor 3 mrad, load and tyres 4 mrad
+  double level_sigma_rad = 0.005;             ///< base_link's tilt at large: floor 0.2 deg, tyres and load as much
   double floor_tilt_sigma_rad = 0.003;        ///< floor and sway; without an inertial sensor only
   double floor_correlation_m = 1.0;           ///< way over which the floor's tilt changes
   double vehicle_acceleration_m_s2 = 1.5;     ///< what a truck does; where no inertial sensor says it
