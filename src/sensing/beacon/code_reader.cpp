@@ -17,7 +17,6 @@ constexpr float kBelowZero = 0.1f;         ///< of the mean: how far the tones o
 constexpr float kMaxToneError = 0.035f;    ///< of the varying light, that the tones leave
 constexpr float kMaxOnOffError = 0.2f;     ///< ... that being on or off leaves: more, where blur and edges cut it
 constexpr float kMaxUneven = 0.025f;       ///< ... that the midst of bright and dark halves leaves of being flat
-constexpr float kMostPaused = 0.2f;        ///< of the frames
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
@@ -31,7 +30,12 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 }  // namespace
 
 CodeReader::CodeReader(const CodeReaderParams& params, int slots)
-    : params_(params), wave_(slots), model_(slots), weights_(slots), ranks_(static_cast<std::size_t>(slots)) {}
+    : params_(params),
+      wave_(slots),
+      model_(slots),
+      weights_(slots),
+      times_(slots),
+      ranks_(static_cast<std::size_t>(slots)) {}
 
 bool CodeReader::varies(const BlobTrack& track, const ToneBank& bank, double power_threshold, double dark_variance) {
   constexpr double kNearThreshold = 0.7, kEnergySigmas = 8;
@@ -119,14 +123,10 @@ void CodeReader::model_on_off(const BlobTrack::Series& flux) {
                               BlobTrack::Series::Constant(flux.size(), dark));
 }
 
-float CodeReader::misfit(const BlobTrack::Series& flux, const FrameWindow& window) const {
-  const Stamp newest = window.at(window.newest()).stamp;
-  const auto time = BlobTrack::Series::NullaryExpr(flux.size(), [&](Eigen::Index slot) {
-    return static_cast<float>(seconds(window.at(static_cast<int>(slot)).stamp - newest));
-  });
+float CodeReader::misfit(const BlobTrack::Series& flux) const {
   const auto light = weights_ * model_;
   const auto left = weights_ * (flux - model_);
-  const auto growth = light * (time - (light * time).sum() / light.sum());
+  const auto growth = light * (times_ - (light * times_).sum() / light.sum());
   const float along = (left * growth).sum();
   return (left.square().sum() - along * along / growth.square().sum()) * static_cast<float>(flux.size()) /
          weights_.sum();
@@ -150,21 +150,17 @@ float CodeReader::on_off_residual(const BlobTrack::Series& flux) {
   return least;
 }
 
-bool CodeReader::has_waveform(const BlobTrack& track, const FrameWindow& window, const Reading& reading,
-                              double dark_variance) {
+bool CodeReader::has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<float>(flux.size());
   const float noise = static_cast<float>(dark_variance) * track.filter().flux_variance();
   const float scatter = (frames + 3 * std::sqrt(2 * frames)) * noise;
   const float light = std::max(0.0f, reading.energy - frames * noise);
   const auto tones = static_cast<float>(reading.code.size());
-  if (tones == 1 && on_off_residual(flux) < kMaxOnOffError * light + scatter) {
-    model_on_off(flux);
-    if (misfit(flux, window) < kMaxUneven * light + scatter) return true;
-  }
-  model_tones(flux, reading.mean);
+  if (reading.on_off_misfit < kMaxUneven * light + scatter && on_off_residual(flux) < kMaxOnOffError * light + scatter)
+    return true;
   const float deepest = kBelowZero * reading.mean + 3 * std::sqrt((1 + 2 * tones) / frames * noise);
-  return misfit(flux, window) < kMaxToneError * light + scatter && model_.minCoeff() > -deepest;
+  return reading.tone_misfit < kMaxToneError * light + scatter && reading.mean + wave_.minCoeff() > -deepest;
 }
 
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
@@ -190,18 +186,23 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const FrameW
   reading.mean = flux.mean();
   reading.energy = (flux - reading.mean).square().sum();
 
+  const Stamp newest = window.at(window.newest()).stamp;
+  for (int slot = 0; slot < frames; ++slot) times_[slot] = static_cast<float>(seconds(window.at(slot).stamp - newest));
+  if (!reading.code.empty()) {
+    model_tones(flux, reading.mean);
+    reading.tone_misfit = misfit(flux);
+  }
+  if (reading.code.size() == 1) {
+    model_on_off(flux);
+    reading.on_off_misfit = misfit(flux);
+  }
+
   // What neither code nor place explains is noise; a blob that is not a code has only its place to go by.
   double residual = 0;
   int freedom = 0;
   if (!reading.code.empty() && reading.sent > params_.min_explained * reading.energy) {
     freedom = std::max(0, frames - 2 - 2 * reading.code.size());
-    model_tones(flux, reading.mean);
-    float left = misfit(flux, window);
-    if (reading.code.size() == 1) {
-      model_on_off(flux);
-      left = std::min(left, misfit(flux, window));
-    }
-    residual += left / flux_variance;
+    residual += std::min(reading.tone_misfit, reading.on_off_misfit) / flux_variance;
   }
   if (track.path().still()) {
     const float square = flux.square().sum();
@@ -341,7 +342,7 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
     return std::nullopt;
   }
   if (reading.weakest_over_noise < power_threshold) return std::nullopt;
-  if (whole && !has_waveform(track, window, reading, dark_variance)) return std::nullopt;
+  if (whole && !has_waveform(track, reading, dark_variance)) return std::nullopt;
   if (whole) {
     track.code = reading.code;
     track.hidden = false;

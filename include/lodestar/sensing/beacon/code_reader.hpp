@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -41,7 +42,9 @@ class CodeReader {
     float mean = 0;                ///< light, grey levels
     float weakest_over_noise = 0;  ///< power of the code's weakest tone
     double pixel_variance = 0;     ///< as the residual has it
-    bool explained = false;        ///< the code accounts for enough of the varying light
+    /// What tones, and the two levels of one that is on-off, leave of the energy; infinite where they do not apply.
+    float tone_misfit = std::numeric_limits<float>::infinity(), on_off_misfit = tone_misfit;
+    bool explained = false;  ///< the code accounts for enough of the varying light
   };
   /// The code's tones, fitted together.
   struct Fit {
@@ -59,11 +62,11 @@ class CodeReader {
   void model_on_off(const BlobTrack::Series& flux);
   /// Energy that the model leaves of the flux, were all frames like those with weight. A beacon that is passed grows
   /// brighter or fainter, evenly and all of its light alike: that is none.
-  float misfit(const BlobTrack::Series& flux, const FrameWindow& window) const;
+  float misfit(const BlobTrack::Series& flux) const;
   /// Energy that is left when the frames are either lit or dark, as the code's one tone has it.
   float on_off_residual(const BlobTrack::Series& flux);
   /// Whether the light goes as a beacon's: its tones as deep as they can be without its going below zero, or on-off.
-  bool has_waveform(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance);
+  bool has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance);
   Reading read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
@@ -73,6 +76,7 @@ class CodeReader {
   Eigen::VectorXf projections_;
   Eigen::ArrayXf wave_;             ///< the code's part of the light, in each slot
   Eigen::ArrayXf model_, weights_;  ///< scratch, one a slot
+  Eigen::ArrayXf times_;            ///< of the slots, s
   std::vector<int> ranks_;          ///< scratch
 };
 

@@ -49,12 +49,14 @@ TEST(HandHeld, CameraAlone) {
   MotionCase motion;
   motion.path = Path::kHandHeld;
   motion.motion_input = false;
-  for (const bool square : {false, true}) {
-    motion.square = square;
-    for (const double speed : {1., 3., 5.}) {
-      motion.speed = speed;
-      expect_within_limits(motion, std::to_string(speed) + (square ? " px a frame, on-off" : " px a frame"));
-    }
+  for (const double speed : {1., 3., 5.}) {
+    motion.speed = speed;
+    expect_within_limits(motion, std::to_string(speed) + " px a frame");
+  }
+  motion.square = true;
+  for (const double speed : {1., 3.}) {
+    motion.speed = speed;
+    expect_within_limits(motion, std::to_string(speed) + " px a frame, on-off");
   }
 }
 
