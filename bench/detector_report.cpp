@@ -92,6 +92,8 @@ void report_alarms() {
   for (const double factor : {1e6, 1e5, 1e4}) line(15, true, factor, scaled(factor > 2e4 ? 5000 : 20000));
   line(15, false, 1e3, scaled(90000));
   line(15, false, 1, scaled(180000));
+  line(15, true, 1e3, scaled(90000));
+  line(15, true, 1, scaled(180000));
 }
 
 void report_centre() {

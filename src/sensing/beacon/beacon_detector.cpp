@@ -143,12 +143,14 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
       scan_.defer(change.pixel);
       continue;
     }
-    const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, noise);
+    const PixelNoise around{noise.dark_variance * static_cast<double>(change.noise), noise.white_level};
+    const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, around);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
+    if (track) track->set_surround(around.dark_variance);
     // A moving blob may be here as well: only a code that stands the test takes its place.
     const bool suspected = tracker_.suspects(change.pixel.cast<double>());
-    const bool found = track && read_new(*track, power_threshold, noise) &&
-                       (!suspected || reader_.read(*track, window_, bank_, power_threshold, noise.dark_variance));
+    const bool found = track && read_new(*track, power_threshold, around) &&
+                       (!suspected || reader_.read(*track, window_, bank_, power_threshold, around.dark_variance));
     if (track && !found) tracker_.drop_last();
     if (found && suspected) tracker_.drop_suspects_of_last();
     scan_.settle(change.pixel, found);
@@ -197,7 +199,7 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
   const double limit = power_threshold(image);
   if (stands) discover(limit, noise);
   for (BlobTrack& track : tracker_) {
-    const auto sighting = reader_.read(track, window_, bank_, limit, noise.dark_variance);
+    const auto sighting = reader_.read(track, window_, bank_, limit, track.dark_variance(noise));
     if (!sighting || !camera_->contains(sighting->pixel)) continue;
     const auto twin = std::find_if(result.sightings.begin(), result.sightings.end(), [&](const Sighting& other) {
       return (other.pixel - sighting->pixel).norm() < kMergePx;

@@ -39,7 +39,7 @@ void BlobTrack::restart(const PathFilter& path) {
   shift_v_.setZero();
   widening_.setZero();
   clipped_radius_.setZero();
-  pixel_variance_ = 0;
+  surround_variance_ = pixel_variance_ = 0;
   frames_ = hits_ = unseen_ = 0;
 }
 

@@ -1,6 +1,7 @@
 #include "lodestar/sensing/beacon/change_scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -21,6 +22,7 @@ constexpr float kExcessForgets = 0.005f;                  ///< a frame, of what 
 constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain adds: a share, and at least
 constexpr int kNoiseSample = 256;                         ///< cells a frame
 constexpr double kNoiseForgets = 1.0 / 16;
+constexpr std::ptrdiff_t kAround = 3;                ///< cells from a spot's middle, where its light has ended
 constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
 
 const ChangeKernels& kernels() {
@@ -125,6 +127,7 @@ void ChangeScan::scan(const Image& image, bool stands, Planes<Lane>& planes) {
   units.risen = static_cast<int>(kRisenSigmas * sigma);
   units.forget_bits = forget_bits_;
   if (stands) lower_limits(planes);
+  const bool counts = stands && cell_variance_ > 0;  // the first difference has only told what noise is
 
   const auto kernel = kernel_for(Lane{});
   const int whole = image.width_px / (2 * kSegment);
@@ -138,7 +141,7 @@ void ChangeScan::scan(const Image& image, bool stands, Planes<Lane>& planes) {
                               image.row<Pixel>(2 * row + 1),
                               before.data() + first,
                               now.data() + first,
-                              stands ? planes.energy.data() + first : nullptr,
+                              counts ? planes.energy.data() + first : nullptr,
                               planes.limit.data() + tile(0, row),
                               flags_.data() + row * flag_stride_,
                               whole};
@@ -216,6 +219,22 @@ float ChangeScan::spot_energy(const Lane* cell, std::ptrdiff_t stride) const {
   return most;
 }
 
+template <class Lane>
+float ChangeScan::noise_around(const Lane* cell, std::ptrdiff_t stride) const {
+  std::array<Lane, 8 * kAround> ring;
+  auto next = ring.begin();
+  for (std::ptrdiff_t i = -kAround; i < kAround; ++i)
+    for (const std::ptrdiff_t at :
+         {i - kAround * stride, kAround * stride - i, -kAround - i * stride, kAround + i * stride})
+      *next++ = cell[at];
+  const auto middle = ring.begin() + ring.size() / 2;
+  std::nth_element(ring.begin(), middle, ring.end());
+  // Of Gaussian noise a median scatters by 1.25 sigma of one over the root of their count: 3 of that are no chance.
+  const float excess = static_cast<float>(*middle) - energy_mean_;
+  const float scatter = 1.25f * energy_sigma_ / std::sqrt(static_cast<float>(ring.size()));
+  return excess > 3 * scatter ? static_cast<float>(*middle) / energy_mean_ : 1;
+}
+
 template <class Value, class Limit, class Found>
 void ChangeScan::for_each_peak(ChangeFlag flag, const Value& value, const Limit& limit, Found&& found) const {
   const std::ptrdiff_t stride = segments_ * kSegment;
@@ -263,7 +282,11 @@ void ChangeScan::collect_restless(const Planes<Lane>& planes) {
       [&](std::size_t tile) { return planes.limit[tile]; },
       [&](const Eigen::Vector2i& pixel, std::ptrdiff_t i) {
         const float size = spot_energy(planes.energy.data() + i, segments_ * kSegment);
-        if (size > tile_limit_[tile(pixel.x() / 2, pixel.y() / 2)]) restless_.push_back({pixel, size});
+        const Eigen::Vector2i cell = pixel / 2;
+        if (size <= tile_limit_[tile(cell.x(), cell.y())]) return;
+        const bool inside = std::min({cell.x(), cell.y(), columns_ - 1 - cell.x(), rows_ - 1 - cell.y()}) >= kAround;
+        const Lane* energy = planes.energy.data() + i;
+        restless_.push_back({pixel, size, inside ? noise_around(energy, segments_ * kSegment) : 1});
       });
   std::sort(restless_.begin(), restless_.end(), is_larger);
 }

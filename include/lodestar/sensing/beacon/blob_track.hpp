@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "lodestar/base/measurement/tone_set.hpp"
@@ -70,6 +71,12 @@ class BlobTrack {
   const SpotShape& shape() const { return shape_; }
   bool saturated() const { return shape_.clipped_radius_px > 0; }
 
+  /// Noise of the ceiling around a blob that was found at rest; more than the image's on a pane that is lit.
+  void set_surround(double dark_variance) { surround_variance_ = dark_variance; }
+  double dark_variance(const PixelNoise& noise) const {
+    return path_.still() ? std::max(noise.dark_variance, surround_variance_) : noise.dark_variance;
+  }
+
   /// Variance of a pixel beside the spot, as the code's residual has it; learnt by who reads the code.
   void learn_noise(double pixel_variance) { pixel_variance_ = pixel_variance; }
 
@@ -99,7 +106,7 @@ class BlobTrack {
 
   Series flux_, shift_u_, shift_v_, widening_, clipped_radius_;
   std::vector<Eigen::Vector2d> places_;
-  double pixel_variance_ = 0;
+  double surround_variance_ = 0, pixel_variance_ = 0;
   int frames_ = 0, hits_ = 0, unseen_ = 0;
 };
 

@@ -34,6 +34,7 @@ class ChangeScan {
   struct Change {
     Eigen::Vector2i pixel;  ///< upper left one of the cell
     float size;             ///< in sigmas of a cell's difference (risen), or of a spot's energy (restless)
+    float noise = 1;        ///< variance around a restless cell, over that of a dark pixel; at least 1
   };
   /// Cells that are brighter than `lag` frames ago by 6 sigma, and more so than their neighbours.
   const std::vector<Change>& risen() const { return risen_; }
@@ -77,6 +78,9 @@ class ChangeScan {
   /// border of cells shines on two or four of them. Each sum in sigmas of its own.
   template <class Lane>
   float spot_energy(const Lane* cell, std::ptrdiff_t stride) const;
+  /// Change::noise, from the cells three away. Most of them, so that another light among them does not count.
+  template <class Lane>
+  float noise_around(const Lane* cell, std::ptrdiff_t stride) const;
   template <class Lane>
   void lower_limits(Planes<Lane>& planes);
   /// Calls `found(pixel, cell)` for the cells of flagged segments that pass their tile's limit and their neighbours.

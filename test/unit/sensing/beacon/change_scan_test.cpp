@@ -77,6 +77,30 @@ TEST_P(ChangeScanBits, ShowsWhatFlashesAndForgetsWhatHasSettled) {
   for (const auto& change : scan.restless()) EXPECT_LT(change.size, 12);
 }
 
+TEST_P(ChangeScanBits, SaysWhatTheNoiseAroundAFlashIs) {
+  test::BlobScene scene;
+  scene.bits = GetParam();
+  scene.noise = 2;
+  scene.dark_level = 50;
+  scene.panes = {{80, 0, scene.width_px, scene.height_px, 50, 4}};
+  scene.lights = {{test::at(30.4, 40.4), test::tones(400, {5})}, {test::at(100.4, 40.4), test::tones(400, {5})}};
+  ChangeScan scan(30);
+  double dark = 0, lit = 0;
+  int frames = 0;
+  for (int i = 0; i < 120; ++i) {
+    scan.push(scene.render(i / 30.0));
+    if (i < 60) continue;
+    ++frames;
+    for (const auto& change : scan.restless()) {
+      const double variance = static_cast<double>(change.noise) * scan.pixel_variance();
+      if (change.pixel == Eigen::Vector2i(30, 40)) dark += variance;
+      if (change.pixel == Eigen::Vector2i(100, 40)) lit += variance;
+    }
+  }
+  EXPECT_NEAR(dark / frames, scan.pixel_variance(), 0.1 * scan.pixel_variance());  // no less than the image's
+  EXPECT_NEAR(lit / frames, 4 * 4 + 1.0 / 12, 0.2 * 16);
+}
+
 TEST_P(ChangeScanBits, ShowsLightThatHasCome) {
   test::BlobScene scene;
   scene.bits = GetParam();
