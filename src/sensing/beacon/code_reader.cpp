@@ -14,9 +14,10 @@ constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's sh
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
 constexpr float kBelowZero = 0.1f;         ///< of the mean: how far the tones of a light, which never is, may go
-constexpr float kMaxToneError = 0.035f;    ///< of the varying light, that the tones leave
-constexpr float kMaxOnOffError = 0.2f;     ///< ... that being on or off leaves: more, where blur and edges cut it
-constexpr float kMaxUneven = 0.025f;       ///< ... that the midst of bright and dark halves leaves of being flat
+constexpr float kMaxToneError = 0.035f;  ///< of the varying light, that a single tone leaves: glitter comes near to it
+constexpr float kMaxTonesError = 0.15f;  ///< ... that several do, which nothing but a code has; pauses cost some
+constexpr float kMaxOnOffError = 0.2f;   ///< ... that being on or off leaves: more, where blur and edges cut it
+constexpr float kMaxUneven = 0.025f;     ///< ... that the midst of bright and dark halves leaves of being flat
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
@@ -160,7 +161,8 @@ bool CodeReader::has_waveform(const BlobTrack& track, const Reading& reading, do
   if (reading.on_off_misfit < kMaxUneven * light + scatter && on_off_residual(flux) < kMaxOnOffError * light + scatter)
     return true;
   const float deepest = kBelowZero * reading.mean + 3 * std::sqrt((1 + 2 * tones) / frames * noise);
-  return reading.tone_misfit < kMaxToneError * light + scatter && reading.mean + wave_.minCoeff() > -deepest;
+  const float most = tones == 1 ? kMaxToneError : kMaxTonesError;
+  return reading.tone_misfit < most * light + scatter && reading.mean + wave_.minCoeff() > -deepest;
 }
 
 CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
@@ -269,7 +271,7 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
     weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
   reading.weakest_over_noise = weakest / noise;
   // Two tones of three account for two thirds: another beacon may be there now.
-  const float most_left = reading.code.size() == 1 ? static_cast<float>(1 - params_.min_explained) : kMaxToneError;
+  const float most_left = reading.code.size() == 1 ? static_cast<float>(1 - params_.min_explained) : kMaxTonesError;
   reading.explained = left <= most_left * energy + static_cast<float>(track.frames()) * noise;
   return reading;
 }
