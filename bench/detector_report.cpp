@@ -24,14 +24,21 @@ double scale = 1;  ///< of the numbers of trials
 int scaled(int count) { return std::max(1, static_cast<int>(count * scale)); }
 const char* yes(bool value) { return value ? "yes" : "no"; }
 
-/// Where a measured curve passes a probability, by straight lines between its points.
-double crossing_db(const std::vector<std::pair<double, double>>& curve, double probability) {
+/// Where a measured curve passes a probability, by straight lines between its points, beside theory; else on which side
+/// of all points that is.
+std::string crossing(const std::vector<std::pair<double, double>>& curve, double probability, double theory_db) {
+  char text[32];
+  const auto say = [&](const char* format, double at_db) {
+    std::snprintf(text, sizeof(text), format, at_db - theory_db);
+    return std::string(text);
+  };
+  if (curve.front().second >= probability) return say("below %+.2f dB", curve.front().first);
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const auto [x0, p0] = curve[i - 1];
     const auto [x1, p1] = curve[i];
-    if (p0 < probability && p1 >= probability) return x0 + (x1 - x0) * (probability - p0) / (p1 - p0);
+    if (p0 < probability && p1 >= probability) return say("%+.2f dB", x0 + (x1 - x0) * (probability - p0) / (p1 - p0));
   }
-  return std::nan("");
+  return say("above %+.2f dB", curve.back().first);
 }
 
 void report_probability() {
@@ -58,8 +65,8 @@ void report_probability() {
       std::snprintf(cell, sizeof(cell), " %.3f/%.3f", measured, trials.theory(half_db + offset_db));
       if (std::abs(offset_db - std::round(offset_db)) < 0.1) cells += cell;
     }
-    std::printf("| %d |%s | %+.2f dB | %+.2f dB |\n", window, cells.c_str(), crossing_db(curve, 0.5) - half_db,
-                crossing_db(curve, 0.99) - trials.theory_snr_db(0.99));
+    std::printf("| %d |%s | %s | %s |\n", window, cells.c_str(), crossing(curve, 0.5, half_db).c_str(),
+                crossing(curve, 0.99, trials.theory_snr_db(0.99)).c_str());
     std::fflush(stdout);
   }
 }
