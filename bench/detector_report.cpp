@@ -3,6 +3,7 @@
 //
 // Usage: report_detector [--scale S] [probability alarms centre range motion follow lamps]
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
