@@ -14,10 +14,10 @@ constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's sh
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
 constexpr float kBelowZero = 0.1f;         ///< of the mean: how far the tones of a light, which never is, may go
-constexpr float kMaxToneError = 0.035f;  ///< of the varying light, that a single tone leaves: glitter comes near to it
-constexpr float kMaxTonesError = 0.15f;  ///< ... that several do, which nothing but a code has; pauses cost some
-constexpr float kMaxOnOffError = 0.2f;   ///< ... that being on or off leaves: more, where blur and edges cut it
-constexpr float kMaxUneven = 0.025f;     ///< ... that the midst of bright and dark halves leaves of being flat
+constexpr float kMaxToneError = 0.15f;     ///< of the varying light, that the tones leave: pauses cost some
+constexpr float kMaxRhythmError = 0.035f;  ///< ... where they are one tone and its multiples: glitter has these too
+constexpr float kMaxOnOffError = 0.2f;     ///< ... that being on or off leaves: more, where blur and edges cut it
+constexpr float kMaxUneven = 0.025f;       ///< ... that the midst of bright and dark halves leaves of being flat
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
@@ -151,7 +151,8 @@ float CodeReader::on_off_residual(const BlobTrack::Series& flux) {
   return least;
 }
 
-bool CodeReader::has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance) {
+bool CodeReader::has_waveform(const BlobTrack& track, const ToneBank& bank, const Reading& reading,
+                              double dark_variance) {
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<float>(flux.size());
   const float noise = static_cast<float>(dark_variance) * track.filter().flux_variance();
@@ -161,7 +162,7 @@ bool CodeReader::has_waveform(const BlobTrack& track, const Reading& reading, do
   if (reading.on_off_misfit < kMaxUneven * light + scatter && on_off_residual(flux) < kMaxOnOffError * light + scatter)
     return true;
   const float deepest = kBelowZero * reading.mean + 3 * std::sqrt((1 + 2 * tones) / frames * noise);
-  const float most = tones == 1 ? kMaxToneError : kMaxTonesError;
+  const float most = bank.is_one_rhythm(reading.code) ? kMaxRhythmError : kMaxToneError;
   return reading.tone_misfit < most * light + scatter && reading.mean + wave_.minCoeff() > -deepest;
 }
 
@@ -271,7 +272,7 @@ CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWin
     weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
   reading.weakest_over_noise = weakest / noise;
   // Two tones of three account for two thirds: another beacon may be there now.
-  const float most_left = reading.code.size() == 1 ? static_cast<float>(1 - params_.min_explained) : kMaxTonesError;
+  const float most_left = reading.code.size() == 1 ? static_cast<float>(1 - params_.min_explained) : kMaxToneError;
   reading.explained = left <= most_left * energy + static_cast<float>(track.frames()) * noise;
   return reading;
 }
@@ -344,7 +345,7 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
     return std::nullopt;
   }
   if (reading.weakest_over_noise < power_threshold) return std::nullopt;
-  if (whole && !has_waveform(track, reading, dark_variance)) return std::nullopt;
+  if (whole && !has_waveform(track, bank, reading, dark_variance)) return std::nullopt;
   if (whole) {
     track.code = reading.code;
     track.hidden = false;

@@ -1,6 +1,8 @@
 #include "lodestar/sensing/beacon/tone_bank.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lodestar/base/common/angle.hpp"
 
@@ -45,6 +47,18 @@ void ToneBank::update() {
     normalize_or_clear(sine);
   }
   gram_.noalias() = basis_ * basis_.transpose();
+}
+
+bool ToneBank::is_one_rhythm(const ToneSet& code) const {
+  constexpr double kOff = 0.01;  // of the lowest tone
+  double lowest_hz = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < tones(); ++k)
+    if (code.contains(k)) lowest_hz = std::min(lowest_hz, tones_hz_[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < tones(); ++k) {
+    const double beside_hz = std::remainder(tones_hz_[static_cast<std::size_t>(k)], lowest_hz);
+    if (code.contains(k) && std::abs(beside_hz) > kOff * lowest_hz) return false;
+  }
+  return true;
 }
 
 }  // namespace lodestar

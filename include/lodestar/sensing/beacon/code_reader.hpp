@@ -66,7 +66,7 @@ class CodeReader {
   /// Energy that is left when the frames are either lit or dark, as the code's one tone has it.
   float on_off_residual(const BlobTrack::Series& flux);
   /// Whether the light goes as a beacon's: its tones as deep as they can be without its going below zero, or on-off.
-  bool has_waveform(const BlobTrack& track, const Reading& reading, double dark_variance);
+  bool has_waveform(const BlobTrack& track, const ToneBank& bank, const Reading& reading, double dark_variance);
   Reading read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;

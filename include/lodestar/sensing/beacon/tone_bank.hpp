@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lodestar/base/common/stamp.hpp"
+#include "lodestar/base/measurement/tone_set.hpp"
 
 namespace lodestar {
 
@@ -31,6 +32,9 @@ class ToneBank {
 
   /// Makes the basis of the frames in all slots. Call when all slots are set.
   void update();
+
+  /// Whether anything that repeats at the lowest of these tones may have them all: they are its multiples.
+  bool is_one_rhythm(const ToneSet& code) const;
 
   int tones() const { return static_cast<int>(basis_.rows()) / 2; }
   int slots() const { return static_cast<int>(basis_.cols()); }

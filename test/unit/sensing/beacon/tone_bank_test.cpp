@@ -80,6 +80,15 @@ TEST(ToneBank, LostAndLateFramesDoNotBendTheFrequency) {
   EXPECT_LT(power(blind, x, 1), 300);
 }
 
+TEST(ToneBank, ATonesMultiplesAreOneRhythm) {
+  const ToneBank bank(30, {4, 6, 8, 12});
+  EXPECT_TRUE(bank.is_one_rhythm({1}));
+  EXPECT_TRUE(bank.is_one_rhythm({0, 2}));
+  EXPECT_TRUE(bank.is_one_rhythm({0, 2, 3}));
+  EXPECT_FALSE(bank.is_one_rhythm({0, 1}));
+  EXPECT_FALSE(bank.is_one_rhythm({2, 3}));
+}
+
 TEST(ToneBank, NoiseIsChiSquareWithTwoDegreesOfFreedom) {
   const auto stamps = even_stamps(15, 25);
   const ToneBank bank(stamps, {5, 10});
