@@ -20,15 +20,16 @@ Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading
       telemetry_(params.vda),
       outbox_(params.outbox, "", 0, 0),
       clock_(std::nullopt, params.clock_step) {
-  open();
+  open("");
   clock_ = ClockWatch(store_->clock_offset(), params_.clock_step);
   watch_clock(now);
   store_->keep_clock_offset(now.offset());
 }
 
-void Bridge::open() {
+/// @param damage of the store in use; empty: none is known
+void Bridge::open(const std::string& damage) {
   store_.reset();
-  OpenedStore opened = open_store(params_.store, random_uuid());
+  OpenedStore opened = open_store(params_.store, random_uuid(), damage);
   store_ = std::move(opened.store);
   last_heard_ = store_->last_heard();
   outbox_ = Outbox(params_.outbox, store_->stream(), store_->acknowledged(), store_->last());
@@ -42,9 +43,9 @@ template <class Job>
 void Bridge::with_store(const ClockReading& now, Job job) {
   try {
     job();
-  } catch (const StoreCorrupt&) {
+  } catch (const StoreCorrupt& error) {
     ++store_faults_;
-    open();
+    open(error.what());
     tried_ = {};
     store_->keep_clock_offset(now.offset());
     if (brokers_.is_up()) greet(now);

@@ -39,14 +39,19 @@ int execute(Statement& statement, const Values&... values) {
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::uint64_t unsigned_of(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
+void require_sound(SQLite::Database& database, const char* check) {
+  const std::string verdict = database.execAndGet(check).getString();
+  if (verdict != "ok") throw StoreCorrupt(verdict);
+}
+
 SQLite::Database open_database(const std::string& path) {
   SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  const std::string verdict = database.execAndGet("PRAGMA quick_check(1)").getString();
-  if (verdict != "ok") throw StoreCorrupt(verdict);
+  require_sound(database, "PRAGMA quick_check(1)");
   database.exec("PRAGMA journal_mode = WAL");
   database.exec("PRAGMA synchronous = FULL");
   database.exec("PRAGMA journal_size_limit = 1048576");
   migrate(database);
+  require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
 }
 

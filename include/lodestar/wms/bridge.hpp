@@ -76,7 +76,7 @@ class Bridge {
   const std::string& set_aside() const { return set_aside_; }      ///< the damaged file; empty: none
 
  private:
-  void open();
+  void open(const std::string& damage);
   void watch_clock(const ClockReading& now);
   void handle(const LinkEvent& event, const ClockReading& now);
   void greet(const ClockReading& now);

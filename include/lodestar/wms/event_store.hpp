@@ -119,6 +119,7 @@ struct OpenedStore {
 };
 
 /// Opens the store; a damaged file is moved to `<path>.corrupt-<n>`, and a new one begins.
-OpenedStore open_store(const StoreParams& params, const std::string& new_stream);
+/// @param damage what was found while the file was in use: it is not opened again, whatever the checks say of it
+OpenedStore open_store(const StoreParams& params, const std::string& new_stream, const std::string& damage = "");
 
 }  // namespace lodestar

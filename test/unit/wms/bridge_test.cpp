@@ -11,6 +11,7 @@
 
 #include "support/bridge_params.hpp"
 #include "support/pallet_changes.hpp"
+#include "support/rtree_damage.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lodestar {
@@ -274,6 +275,22 @@ TEST_F(BridgeTest, AStoreThatBreaksWhileItRunsIsReplaced) {
   EXPECT_EQ(notice->stream, bridge.store().stream());
   bridge.take(change(40), now());
   poll(bridge, 2);
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->stream, bridge.store().stream());
+}
+
+TEST_F(BridgeTest, AnRTreeThatBreaksWhileItRunsCostsNoEvent) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  for (int n = 1; n <= 4; ++n) bridge.take(change(n), now());
+  const std::string old_stream = bridge.store().stream();
+  test::damage_rtree(params_.store.path);
+  bridge.take(change(5), now());
+  bridge.take(change(6), now());
+  EXPECT_EQ(bridge.set_aside(), params_.store.path + ".corrupt-1");
+  EXPECT_NE(bridge.store().stream(), old_stream);
+  poll(bridge, 2);
+  EXPECT_EQ(bridge.in_memory(), 0u);
+  EXPECT_EQ(bridge.store().last_heard(), 6u);
   EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->stream, bridge.store().stream());
 }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "support/pallet_changes.hpp"
+#include "support/rtree_damage.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lodestar {
@@ -242,6 +243,27 @@ TEST_F(Store, ADamagedFileIsSetAsideAndANewOneBegins) {
   opened = open_store(params(), uuid(902));
   EXPECT_EQ(opened.set_aside, params().path + ".corrupt-2");
   EXPECT_EQ(opened.store->stream(), uuid(902));
+  EXPECT_EQ(opened.store->last(), 0u);
+}
+
+TEST_F(Store, ADamagedRTreeIsDamage) {
+  {
+    EventStore store(params(), kStream);
+    for (int n = 1; n <= 4; ++n) store.record(change(n), "d");
+  }
+  test::damage_rtree(params().path);
+  const OpenedStore opened = open_store(params(), uuid(901));
+  EXPECT_EQ(opened.set_aside, params().path + ".corrupt-1");
+  EXPECT_NE(opened.damage, "");
+  EXPECT_EQ(opened.store->record(change(5), "d"), Recorded::kNew);
+}
+
+TEST_F(Store, DamageThatNoCheckSeesSetsTheFileAsideAllTheSame) {
+  EventStore(params(), kStream).record(change(1), "d");
+  const OpenedStore opened = open_store(params(), uuid(901), "found while it ran");
+  EXPECT_EQ(opened.set_aside, params().path + ".corrupt-1");
+  EXPECT_EQ(opened.damage, "found while it ran");
+  EXPECT_EQ(opened.store->stream(), uuid(901));
   EXPECT_EQ(opened.store->last(), 0u);
 }
 
