@@ -350,5 +350,37 @@ TEST(BridgeParams, AllFaultsAtOnce) {
   EXPECT_TRUE(check(test::bridge_params("/tmp/x"), "").empty());
 }
 
+bool told_wrong(const BridgeParams& params, const std::string& key, const std::string& value) {
+  return describe(check(params, "/wms_bridge")).find(key + ": is '" + value + "', must be") != std::string::npos;
+}
+
+TEST(BridgeParams, TheReferenceSystemIsAUri) {
+  BridgeParams params = test::bridge_params("/tmp/x");
+  const auto refused = [&](const std::string& text) {
+    params.epcis.coordinate_reference_system = text;
+    return told_wrong(params, "coordinate_reference_system", text);
+  };
+  for (const char* text : {"https://lodestar.example/crs/demo/map", "https://user@hall.example:8080/a?b=c/d#e",
+                           "urn:ogc:def:crs:EPSG::4326", "urn:uuid:6ba7b810-9dad-11d1-80b4-00c04fd430c8",
+                           "tag:hall-12,2026:map%20a", "file:///map", "x:"})
+    EXPECT_FALSE(refused(text)) << text;
+  const std::string long_uri = "https://a.example/" + std::string(100000, 'a');
+  for (const std::string text :
+       {"", "map", "hall 12: map", "urn:hall 12", "12:map", ":map", "h\xc3\xa4ll:map", "urn:h\xc3\xa4ll", "urn:a%2",
+        "urn:a%zz", "urn:<a>", "urn:a#b#c", "http://a:b", "urn:a\n", long_uri.c_str()})
+    EXPECT_TRUE(refused(text)) << text.substr(0, 80);
+}
+
+TEST(BridgeParams, TheVersionIsNumbersWithDotsBetween) {
+  BridgeParams params = test::bridge_params("/tmp/x");
+  const auto refused = [&](const std::string& text) {
+    params.vda.version = text;
+    return told_wrong(params, "vda_version", text);
+  };
+  for (const char* text : {"2", "2.1", "2.1.0", "10.0.12"}) EXPECT_FALSE(refused(text)) << text;
+  for (const char* text : {"", "v2.1.0", "2.", ".2", "2..1", "#", "2/1.0", "2.1.0 ", "2.1.0\n"})
+    EXPECT_TRUE(refused(text)) << text;
+}
+
 }  // namespace
 }  // namespace lodestar
