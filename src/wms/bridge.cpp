@@ -63,7 +63,7 @@ void Bridge::take(PalletChange change, const ClockReading& now) {
     change.pallet.sscc.clear();
   }
   if (waiting_.size() >= params_.most_in_memory) return drops_.add(BridgeDrop::kLost);
-  waiting_.push_back(std::move(change));
+  waiting_.push_back({std::move(change), Duration::zero()});
   if (waiting_.size() == 1) with_store(now, [this] { record_waiting(); });
 }
 
@@ -72,9 +72,10 @@ void Bridge::record_waiting() {
 }
 
 /// @return false: there is no room
-bool Bridge::record(const PalletChange& change) {
+bool Bridge::record(const Waiting& waiting) {
+  const PalletChange& change = waiting.change;
   const std::uint64_t before = store_->last_heard();
-  switch (store_->record(change, epcis_draft(params_.epcis, change))) {
+  switch (store_->record(change, epcis_draft(params_.epcis, change), waiting.clock_step)) {
     case Recorded::kFull:
       return false;
     case Recorded::kKnown:
@@ -100,10 +101,8 @@ void Bridge::watch_clock(const ClockReading& now) {
   const auto step = clock_.step(now);
   if (!step) return;
   ++clock_steps_;
-  with_store(now, [&] {
-    store_->mark_clock_step(*step);
-    store_->keep_clock_offset(now.offset());
-  });
+  for (Waiting& waiting : waiting_) waiting.clock_step += *step;
+  with_store(now, [&] { store_->mark_clock_step(*step, now.offset()); });
 }
 
 void Bridge::poll(const ClockReading& now) {
@@ -114,6 +113,7 @@ void Bridge::poll(const ClockReading& now) {
     store_->acknowledge(outbox_.acknowledged());
     if (!room && now.monotonic - tried_ < kBetweenTries) return;
     tried_ = now.monotonic;
+    store_->mark_clock_step(Duration::zero(), now.offset());
     record_waiting();
   });
   telemetry_.set_outbox_full(!waiting_.empty());

@@ -81,7 +81,11 @@ class Bridge {
   void handle(const LinkEvent& event, const ClockReading& now);
   void greet(const ClockReading& now);
   void record_waiting();
-  bool record(const PalletChange& change);
+  struct Waiting {
+    PalletChange change;
+    Duration clock_step{};  ///< by which the wall clock was set since
+  };
+  bool record(const Waiting& waiting);
   void count_heard(std::uint64_t before, std::uint64_t sequence);
   void send_due(const ClockReading& now);
   template <class Job>
@@ -95,7 +99,7 @@ class Bridge {
   std::unique_ptr<EventStore> store_;
   Outbox outbox_;
   ClockWatch clock_;
-  std::deque<PalletChange> waiting_;
+  std::deque<Waiting> waiting_;
   Instant tried_{};  ///< when they were last offered to the store
   DropCounts<BridgeDrop> drops_;
   HeardCounts heard_;

@@ -247,6 +247,25 @@ TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsBeforeIt) {
   EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
 }
 
+TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsThatWaitInMemoryToo) {
+  Bridge bridge(params_, link_, now());
+  {
+    SQLite::Database other(params_.store.path, SQLite::OPEN_READWRITE);
+    SQLite::Transaction busy(other, SQLite::TransactionBehavior::IMMEDIATE);
+    bridge.take(change(1), now());
+    wall_offset_s_ = 3600;
+    poll(bridge);
+    EXPECT_EQ(bridge.in_memory(), 1u);
+  }
+  bridge.take(change(2), now());
+  time_s_ += 1;
+  poll(bridge, 3);
+  const auto events = link_.on("/event");
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(json::parse(events[0].payload)["epcisBody"]["eventList"][0].value("lodestar:clock", ""), "unsynchronised");
+  EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
+}
+
 TEST_F(BridgeTest, AStoreThatBreaksWhileItRunsIsReplaced) {
   Bridge bridge(params_, link_, now());
   poll(bridge, 2);
