@@ -20,15 +20,16 @@ Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading
       telemetry_(params.vda),
       outbox_(params.outbox, "", 0, 0),
       clock_(std::nullopt, params.clock_step) {
-  open();
+  open("");
   clock_ = ClockWatch(store_->clock_offset(), params_.clock_step);
   watch_clock(now);
   store_->keep_clock_offset(now.offset());
 }
 
-void Bridge::open() {
+/// @param damage of the store in use; empty: none is known
+void Bridge::open(const std::string& damage) {
   store_.reset();
-  OpenedStore opened = open_store(params_.store, random_uuid());
+  OpenedStore opened = open_store(params_.store, random_uuid(), damage);
   store_ = std::move(opened.store);
   last_heard_ = store_->last_heard();
   outbox_ = Outbox(params_.outbox, store_->stream(), store_->acknowledged(), store_->last());
@@ -42,9 +43,9 @@ template <class Job>
 void Bridge::with_store(const ClockReading& now, Job job) {
   try {
     job();
-  } catch (const StoreCorrupt&) {
+  } catch (const StoreCorrupt& error) {
     ++store_faults_;
-    open();
+    open(error.what());
     tried_ = {};
     store_->keep_clock_offset(now.offset());
     if (brokers_.is_up()) greet(now);
@@ -62,7 +63,7 @@ void Bridge::take(PalletChange change, const ClockReading& now) {
     change.pallet.sscc.clear();
   }
   if (waiting_.size() >= params_.most_in_memory) return drops_.add(BridgeDrop::kLost);
-  waiting_.push_back(std::move(change));
+  waiting_.push_back({std::move(change), Duration::zero()});
   if (waiting_.size() == 1) with_store(now, [this] { record_waiting(); });
 }
 
@@ -71,9 +72,10 @@ void Bridge::record_waiting() {
 }
 
 /// @return false: there is no room
-bool Bridge::record(const PalletChange& change) {
+bool Bridge::record(const Waiting& waiting) {
+  const PalletChange& change = waiting.change;
   const std::uint64_t before = store_->last_heard();
-  switch (store_->record(change, epcis_draft(params_.epcis, change))) {
+  switch (store_->record(change, epcis_draft(params_.epcis, change), waiting.clock_step)) {
     case Recorded::kFull:
       return false;
     case Recorded::kKnown:
@@ -99,10 +101,8 @@ void Bridge::watch_clock(const ClockReading& now) {
   const auto step = clock_.step(now);
   if (!step) return;
   ++clock_steps_;
-  with_store(now, [&] {
-    store_->mark_clock_step(*step);
-    store_->keep_clock_offset(now.offset());
-  });
+  for (Waiting& waiting : waiting_) waiting.clock_step += *step;
+  with_store(now, [&] { store_->mark_clock_step(*step, now.offset()); });
 }
 
 void Bridge::poll(const ClockReading& now) {
@@ -113,6 +113,7 @@ void Bridge::poll(const ClockReading& now) {
     store_->acknowledge(outbox_.acknowledged());
     if (!room && now.monotonic - tried_ < kBetweenTries) return;
     tried_ = now.monotonic;
+    store_->mark_clock_step(Duration::zero(), now.offset());
     record_waiting();
   });
   telemetry_.set_outbox_full(!waiting_.empty());

@@ -25,28 +25,38 @@ auto checked(Job job) {
   }
 }
 
+/// One that a busy file left half done would keep every later transaction from its commit.
+struct ResetAtEnd {
+  ~ResetAtEnd() { statement.tryReset(); }
+  Statement& statement;
+};
+
 /// Bound, run, and ready for the next time.
 template <class... Values>
 int execute(Statement& statement, const Values&... values) {
   statement.tryReset();
   int index = 0;
   (statement.bind(++index, values), ...);
-  const int changes = statement.exec();
-  statement.tryReset();
-  return changes;
+  const ResetAtEnd reset{statement};
+  return statement.exec();
 }
 
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::uint64_t unsigned_of(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
+void require_sound(SQLite::Database& database, const char* check) {
+  const std::string verdict = database.execAndGet(check).getString();
+  if (verdict != "ok") throw StoreCorrupt(verdict);
+}
+
 SQLite::Database open_database(const std::string& path) {
   SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  const std::string verdict = database.execAndGet("PRAGMA quick_check(1)").getString();
-  if (verdict != "ok") throw StoreCorrupt(verdict);
+  require_sound(database, "PRAGMA quick_check(1)");
   database.exec("PRAGMA journal_mode = WAL");
   database.exec("PRAGMA synchronous = FULL");
   database.exec("PRAGMA journal_size_limit = 1048576");
   migrate(database);
+  require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
 }
 
@@ -69,6 +79,7 @@ struct EventStore::Sql {
     bool frozen;
     Duration clock_step;
     std::uint64_t corrects;
+    std::string boot;
   };
   std::vector<Row> rows(std::uint64_t first, std::size_t most) {
     get_events.tryReset();
@@ -79,7 +90,8 @@ struct EventStore::Sql {
       out.push_back({{unsigned_of(get_events.getColumn(0)), get_events.getColumn(1).getString()},
                      get_events.getColumn(2).getInt() != 0,
                      Duration(get_events.getColumn(3).getInt64()),
-                     unsigned_of(get_events.getColumn(4))});
+                     unsigned_of(get_events.getColumn(4)),
+                     get_events.getColumn(5).getString()});
     get_events.tryReset();
     return out;
   }
@@ -95,8 +107,8 @@ struct EventStore::Sql {
   Ballast ballast;
   Statement put_meta{database, "INSERT INTO meta VALUES(?, ?) ON CONFLICT(key) DO UPDATE SET value = excluded.value"};
   Statement put_event{database,
-                      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot)"
-                      " VALUES(?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
+                      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot, clock_step_ns)"
+                      " VALUES(?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
   Statement put_pallet{database,
                        "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                        " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
@@ -104,7 +116,7 @@ struct EventStore::Sql {
   Statement drop_place{database, "DELETE FROM place WHERE key = ?"};
   Statement put_place{database, "INSERT INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
   Statement get_events{database,
-                       "SELECT sequence, document, frozen, clock_step_ns, corrects FROM event WHERE sequence >= ?"
+                       "SELECT sequence, document, frozen, clock_step_ns, corrects, boot FROM event WHERE sequence >= ?"
                        " ORDER BY sequence LIMIT ?"};
   Statement freeze_event{database, "UPDATE event SET document = ?, frozen = 1 WHERE sequence = ?"};
   Statement get_corrected{database,
@@ -165,11 +177,11 @@ bool EventStore::run_with_reserve(Job job) {
   return done;
 }
 
-Recorded EventStore::record(const PalletChange& change, const std::string& draft) {
+Recorded EventStore::record(const PalletChange& change, const std::string& draft, Duration clock_step) {
   Recorded result = Recorded::kNew;
-  const auto job = [&] { result = insert(change, draft); };
+  const auto job = [&] { result = insert(change, draft, clock_step); };
   // Without ballast there is only the room that emptying the queue needs.
-  full_ = !(sql_->ballast.hold() && run(job)) && !(make_room() && run(job));
+  full_ = !mark_pending_step() || (!(sql_->ballast.hold() && run(job)) && !(make_room() && run(job)));
   if (full_) return Recorded::kFull;
   if (result == Recorded::kKnown) return result;
   ++last_;
@@ -177,10 +189,11 @@ Recorded EventStore::record(const PalletChange& change, const std::string& draft
   return result;
 }
 
-Recorded EventStore::insert(const PalletChange& change, const std::string& draft) {
-  const int inserted = execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
-                               static_cast<std::int64_t>(change.stamp.time_since_epoch().count()), change.pallet.id,
-                               signed_of(change.corrects), draft, params_.boot);
+Recorded EventStore::insert(const PalletChange& change, const std::string& draft, Duration clock_step) {
+  const int inserted =
+      execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
+              static_cast<std::int64_t>(change.stamp.time_since_epoch().count()), change.pallet.id,
+              signed_of(change.corrects), draft, params_.boot, static_cast<std::int64_t>(clock_step.count()));
   if (inserted == 0) return Recorded::kKnown;
   put_pallet(change);
   return Recorded::kNew;
@@ -224,7 +237,8 @@ std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].frozen) continue;
       const StoredDocument& draft = rows[i].stored;
-      out[i].document = freeze(draft.document, draft.sequence, rows[i].clock_step,
+      const Duration pending = rows[i].boot == params_.boot ? pending_step_ : Duration::zero();
+      out[i].document = freeze(draft.document, draft.sequence, rows[i].clock_step + pending,
                                corrected_document(rows[i].corrects, draft.sequence));
       execute(sql_->freeze_event, out[i].document, signed_of(draft.sequence));
     }
@@ -257,10 +271,20 @@ bool EventStore::acknowledge(std::uint64_t sequence) {
   return true;
 }
 
-int EventStore::mark_clock_step(Duration step) {
-  int marked = 0;
-  run_with_reserve([&] { marked = execute(sql_->mark_events, static_cast<std::int64_t>(step.count()), params_.boot); });
-  return marked;
+bool EventStore::mark_clock_step(Duration step, Duration offset) {
+  pending_step_ += step;
+  pending_offset_ = offset;
+  return mark_pending_step();
+}
+
+bool EventStore::mark_pending_step() {
+  if (pending_step_ == Duration::zero()) return true;
+  const bool done = run_with_reserve([&] {
+    execute(sql_->mark_events, static_cast<std::int64_t>(pending_step_.count()), params_.boot);
+    put_clock_offset(pending_offset_);
+  });
+  if (done) pending_step_ = Duration::zero();
+  return done;
 }
 
 std::optional<Duration> EventStore::clock_offset() const {
@@ -270,10 +294,12 @@ std::optional<Duration> EventStore::clock_offset() const {
 }
 
 void EventStore::keep_clock_offset(Duration offset) {
-  run_with_reserve([&] {
-    sql_->database.exec("DELETE FROM meta WHERE key LIKE 'clock_offset:%'");
-    execute(sql_->put_meta, "clock_offset:" + params_.boot, std::to_string(offset.count()));
-  });
+  run_with_reserve([&] { put_clock_offset(offset); });
+}
+
+void EventStore::put_clock_offset(Duration offset) {
+  sql_->database.exec("DELETE FROM meta WHERE key LIKE 'clock_offset:%'");
+  execute(sql_->put_meta, "clock_offset:" + params_.boot, std::to_string(offset.count()));
 }
 
 std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {

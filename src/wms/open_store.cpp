@@ -17,15 +17,17 @@ std::string set_aside(const std::string& path) {
 
 }  // namespace
 
-OpenedStore open_store(const StoreParams& params, const std::string& new_stream) {
+OpenedStore open_store(const StoreParams& params, const std::string& new_stream, const std::string& damage) {
   OpenedStore opened;
+  opened.damage = damage;
   try {
-    opened.store = std::make_unique<EventStore>(params, new_stream);
+    if (damage.empty()) opened.store = std::make_unique<EventStore>(params, new_stream);
   } catch (const StoreCorrupt& error) {
     opened.damage = error.what();
-    opened.set_aside = set_aside(params.path);
-    opened.store = std::make_unique<EventStore>(params, new_stream);
   }
+  if (opened.store) return opened;
+  opened.set_aside = set_aside(params.path);
+  opened.store = std::make_unique<EventStore>(params, new_stream);
   return opened;
 }
 

@@ -76,12 +76,16 @@ class Bridge {
   const std::string& set_aside() const { return set_aside_; }      ///< the damaged file; empty: none
 
  private:
-  void open();
+  void open(const std::string& damage);
   void watch_clock(const ClockReading& now);
   void handle(const LinkEvent& event, const ClockReading& now);
   void greet(const ClockReading& now);
   void record_waiting();
-  bool record(const PalletChange& change);
+  struct Waiting {
+    PalletChange change;
+    Duration clock_step{};  ///< by which the wall clock was set since
+  };
+  bool record(const Waiting& waiting);
   void count_heard(std::uint64_t before, std::uint64_t sequence);
   void send_due(const ClockReading& now);
   template <class Job>
@@ -95,7 +99,7 @@ class Bridge {
   std::unique_ptr<EventStore> store_;
   Outbox outbox_;
   ClockWatch clock_;
-  std::deque<PalletChange> waiting_;
+  std::deque<Waiting> waiting_;
   Instant tried_{};  ///< when they were last offered to the store
   DropCounts<BridgeDrop> drops_;
   HeardCounts heard_;

@@ -73,7 +73,8 @@ class EventStore {
   std::uint64_t last_heard() const { return last_heard_; }      ///< the tracker's own number of the newest event
   bool full() const { return full_; }                           ///< new events find no room
 
-  Recorded record(const PalletChange& change, const std::string& draft);
+  /// @param clock_step by how much the wall clock was set since the change's stamp
+  Recorded record(const PalletChange& change, const std::string& draft, Duration clock_step = Duration::zero());
 
   /// Documents from sequence number `first` on. One that is handed over for the first time is frozen before: durable,
   /// and the same octets ever after. Fewer than there are, or none, when there is no room to freeze them.
@@ -83,9 +84,11 @@ class EventStore {
   /// @return false: not even the reserve had room
   bool acknowledge(std::uint64_t sequence);
 
-  /// The wall clock was set by `step`: what this boot recorded and nobody has yet been handed bears the mark.
-  /// @return how many events that are
-  int mark_clock_step(Duration step);
+  /// The wall clock was set by `step`: what this boot recorded and nobody has yet been handed bears the mark, and
+  /// `offset` is kept. Where that finds no room, or throws, the step is not forgotten: documents() counts it in,
+  /// record() takes nothing new before it is durable, and each later call, with a step of zero too, tries again.
+  /// @return false: there was no room
+  bool mark_clock_step(Duration step, Duration offset);
   /// Wall minus monotonic clock as last kept for this boot.
   std::optional<Duration> clock_offset() const;
   void keep_clock_offset(Duration offset);
@@ -95,7 +98,9 @@ class EventStore {
  private:
   struct Sql;
   void load(const std::string& new_stream);
-  Recorded insert(const PalletChange& change, const std::string& draft);
+  Recorded insert(const PalletChange& change, const std::string& draft, Duration clock_step);
+  bool mark_pending_step();
+  void put_clock_offset(Duration offset);
   void put_pallet(const PalletChange& change);
   std::string corrected_document(std::uint64_t heard, std::uint64_t before);
   bool make_room();
@@ -109,6 +114,7 @@ class EventStore {
   std::string stream_;
   std::uint64_t last_ = 0, acknowledged_ = 0, last_heard_ = 0;
   bool full_ = false;
+  Duration pending_step_{}, pending_offset_{};  ///< of a clock that was set, not yet durable
 };
 
 /// A store, and what had to be done to get it.
@@ -119,6 +125,7 @@ struct OpenedStore {
 };
 
 /// Opens the store; a damaged file is moved to `<path>.corrupt-<n>`, and a new one begins.
-OpenedStore open_store(const StoreParams& params, const std::string& new_stream);
+/// @param damage what was found while the file was in use: it is not opened again, whatever the checks say of it
+OpenedStore open_store(const StoreParams& params, const std::string& new_stream, const std::string& damage = "");
 
 }  // namespace lodestar

@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include <chrono>
+#include <ctime>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "lodestar/PalletEventsAfter.h"
@@ -18,10 +19,14 @@ namespace {
 constexpr double kPollPeriod_s = 0.01;
 constexpr double kCatchUpPeriod_s = 1;  // an event and the state that counts it come one after the other
 
-ClockReading clocks() {
-  return {Stamp(std::chrono::system_clock::now().time_since_epoch()),
-          Instant(std::chrono::steady_clock::now().time_since_epoch())};
+/// Unlike the steady clock it goes on while the computer sleeps, which would look like a wall clock that was set.
+Instant since_boot() {
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return Instant(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
 }
+
+ClockReading clocks() { return {Stamp(std::chrono::system_clock::now().time_since_epoch()), since_boot()}; }
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 
 #include "support/bridge_params.hpp"
 #include "support/pallet_changes.hpp"
+#include "support/rtree_damage.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lodestar {
@@ -246,6 +247,25 @@ TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsBeforeIt) {
   EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
 }
 
+TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsThatWaitInMemoryToo) {
+  Bridge bridge(params_, link_, now());
+  {
+    SQLite::Database other(params_.store.path, SQLite::OPEN_READWRITE);
+    SQLite::Transaction busy(other, SQLite::TransactionBehavior::IMMEDIATE);
+    bridge.take(change(1), now());
+    wall_offset_s_ = 3600;
+    poll(bridge);
+    EXPECT_EQ(bridge.in_memory(), 1u);
+  }
+  bridge.take(change(2), now());
+  time_s_ += 1;
+  poll(bridge, 3);
+  const auto events = link_.on("/event");
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(json::parse(events[0].payload)["epcisBody"]["eventList"][0].value("lodestar:clock", ""), "unsynchronised");
+  EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
+}
+
 TEST_F(BridgeTest, AStoreThatBreaksWhileItRunsIsReplaced) {
   Bridge bridge(params_, link_, now());
   poll(bridge, 2);
@@ -274,6 +294,22 @@ TEST_F(BridgeTest, AStoreThatBreaksWhileItRunsIsReplaced) {
   EXPECT_EQ(notice->stream, bridge.store().stream());
   bridge.take(change(40), now());
   poll(bridge, 2);
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->stream, bridge.store().stream());
+}
+
+TEST_F(BridgeTest, AnRTreeThatBreaksWhileItRunsCostsNoEvent) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  for (int n = 1; n <= 4; ++n) bridge.take(change(n), now());
+  const std::string old_stream = bridge.store().stream();
+  test::damage_rtree(params_.store.path);
+  bridge.take(change(5), now());
+  bridge.take(change(6), now());
+  EXPECT_EQ(bridge.set_aside(), params_.store.path + ".corrupt-1");
+  EXPECT_NE(bridge.store().stream(), old_stream);
+  poll(bridge, 2);
+  EXPECT_EQ(bridge.in_memory(), 0u);
+  EXPECT_EQ(bridge.store().last_heard(), 6u);
   EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->stream, bridge.store().stream());
 }
 
@@ -331,6 +367,38 @@ TEST(BridgeParams, AllFaultsAtOnce) {
   for (const char* word : {"giai", "gln", "coordinate_reference_system", "serial", "store", "brokers"})
     EXPECT_NE(faults.find(word), std::string::npos) << word << " in\n" << faults;
   EXPECT_TRUE(check(test::bridge_params("/tmp/x"), "").empty());
+}
+
+bool told_wrong(const BridgeParams& params, const std::string& key, const std::string& value) {
+  return describe(check(params, "/wms_bridge")).find(key + ": is '" + value + "', must be") != std::string::npos;
+}
+
+TEST(BridgeParams, TheReferenceSystemIsAUri) {
+  BridgeParams params = test::bridge_params("/tmp/x");
+  const auto refused = [&](const std::string& text) {
+    params.epcis.coordinate_reference_system = text;
+    return told_wrong(params, "coordinate_reference_system", text);
+  };
+  for (const char* text : {"https://lodestar.example/crs/demo/map", "https://user@hall.example:8080/a?b=c/d#e",
+                           "urn:ogc:def:crs:EPSG::4326", "urn:uuid:6ba7b810-9dad-11d1-80b4-00c04fd430c8",
+                           "tag:hall-12,2026:map%20a", "file:///map", "x:"})
+    EXPECT_FALSE(refused(text)) << text;
+  const std::string long_uri = "https://a.example/" + std::string(100000, 'a');
+  for (const std::string text :
+       {"", "map", "hall 12: map", "urn:hall 12", "12:map", ":map", "h\xc3\xa4ll:map", "urn:h\xc3\xa4ll", "urn:a%2",
+        "urn:a%zz", "urn:<a>", "urn:a#b#c", "http://a:b", "urn:a\n", long_uri.c_str()})
+    EXPECT_TRUE(refused(text)) << text.substr(0, 80);
+}
+
+TEST(BridgeParams, TheVersionIsNumbersWithDotsBetween) {
+  BridgeParams params = test::bridge_params("/tmp/x");
+  const auto refused = [&](const std::string& text) {
+    params.vda.version = text;
+    return told_wrong(params, "vda_version", text);
+  };
+  for (const char* text : {"2", "2.1", "2.1.0", "10.0.12"}) EXPECT_FALSE(refused(text)) << text;
+  for (const char* text : {"", "v2.1.0", "2.", ".2", "2..1", "#", "2/1.0", "2.1.0 ", "2.1.0\n"})
+    EXPECT_TRUE(refused(text)) << text;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "support/pallet_changes.hpp"
+#include "support/rtree_damage.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lodestar {
@@ -204,20 +205,42 @@ TEST_F(Store, AClockThatIsSetMarksWhatNobodyWasHanded) {
     store.record(change(1), "d1");
     store.record(change(2), "d2");
     store.documents(1, 1, freeze);
-    EXPECT_EQ(store.mark_clock_step(from_seconds(3600)), 1);
+    EXPECT_TRUE(store.mark_clock_step(from_seconds(3600), from_seconds(3605)));
     store.record(change(3), "d3");
     const auto documents = store.documents(1, 50, freeze);
     EXPECT_EQ(documents[0].document, "1:d1");
     EXPECT_EQ(documents[1].document, "2:d2 stepped");
     EXPECT_EQ(documents[2].document, "3:d3");
     store.record(change(4), "d4");
-    EXPECT_EQ(store.clock_offset(), from_seconds(5));
+    EXPECT_EQ(store.clock_offset(), from_seconds(3605));
   }
   StoreParams rebooted = params();
   rebooted.boot = "boot-2";
   EventStore store(rebooted, kStream);
   EXPECT_FALSE(store.clock_offset());
-  EXPECT_EQ(store.mark_clock_step(from_seconds(3600)), 0);
+  EXPECT_TRUE(store.mark_clock_step(from_seconds(3600), from_seconds(3600)));
+  EXPECT_EQ(store.documents(4, 1, freeze)[0].document, "4:d4");
+}
+
+TEST_F(Store, AClockStepThatCannotBeWrittenIsNotForgotten) {
+  const auto step = from_seconds(3600), offset = from_seconds(3605);
+  EventStore store(params(), kStream);
+  for (int n = 1; n <= 2; ++n) store.record(change(n), "d" + std::to_string(n));
+  SQLite::Database other(params().path, SQLite::OPEN_READWRITE);
+  {
+    SQLite::Transaction busy(other, SQLite::TransactionBehavior::IMMEDIATE);
+    EXPECT_THROW(store.mark_clock_step(step, offset), SQLite::Exception);
+    EXPECT_THROW(store.record(change(3), "d3"), SQLite::Exception);
+  }
+  // What is handed over meanwhile bears the mark already.
+  EXPECT_EQ(store.documents(1, 1, freeze)[0].document, "1:d1 stepped");
+  EXPECT_EQ(store.record(change(3), "d3"), Recorded::kNew);
+  EXPECT_EQ(store.clock_offset(), offset);
+  const auto documents = store.documents(1, 50, freeze);
+  ASSERT_EQ(documents.size(), 3u);
+  EXPECT_EQ(documents[0].document, "1:d1 stepped");
+  EXPECT_EQ(documents[1].document, "2:d2 stepped");
+  EXPECT_EQ(documents[2].document, "3:d3");
 }
 
 TEST_F(Store, ADamagedFileIsSetAsideAndANewOneBegins) {
@@ -242,6 +265,27 @@ TEST_F(Store, ADamagedFileIsSetAsideAndANewOneBegins) {
   opened = open_store(params(), uuid(902));
   EXPECT_EQ(opened.set_aside, params().path + ".corrupt-2");
   EXPECT_EQ(opened.store->stream(), uuid(902));
+  EXPECT_EQ(opened.store->last(), 0u);
+}
+
+TEST_F(Store, ADamagedRTreeIsDamage) {
+  {
+    EventStore store(params(), kStream);
+    for (int n = 1; n <= 4; ++n) store.record(change(n), "d");
+  }
+  test::damage_rtree(params().path);
+  const OpenedStore opened = open_store(params(), uuid(901));
+  EXPECT_EQ(opened.set_aside, params().path + ".corrupt-1");
+  EXPECT_NE(opened.damage, "");
+  EXPECT_EQ(opened.store->record(change(5), "d"), Recorded::kNew);
+}
+
+TEST_F(Store, DamageThatNoCheckSeesSetsTheFileAsideAllTheSame) {
+  EventStore(params(), kStream).record(change(1), "d");
+  const OpenedStore opened = open_store(params(), uuid(901), "found while it ran");
+  EXPECT_EQ(opened.set_aside, params().path + ".corrupt-1");
+  EXPECT_EQ(opened.damage, "found while it ran");
+  EXPECT_EQ(opened.store->stream(), uuid(901));
   EXPECT_EQ(opened.store->last(), 0u);
 }
 
