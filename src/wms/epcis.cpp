@@ -48,7 +48,7 @@ json place(const EpcisParams& params, const Pallet& pallet) {
 /// What all events of a change share.
 json event(const EpcisParams& params, const PalletChange& change, const char* type, const char* action) {
   const Pallet& pallet = change.pallet;
-  const bool gone = pallet.state == PalletState::kGone;
+  const bool gone = pallet.state == PalletState::kGone, in_doubt = pallet.state == PalletState::kUncertain;
   json out = {{"type", type},
               {"action", action},
               {"eventTime", iso_time(change.stamp)},
@@ -56,12 +56,12 @@ json event(const EpcisParams& params, const PalletChange& change, const char* ty
               {"readPoint", place(params, pallet)},
               {"lodestar:pallet", uuid_uri(pallet.id)},
               {"lodestar:state", name(pallet.state)}};
-  if (pallet.state == PalletState::kOnFork) {
+  if (change.kind == PalletChangeKind::kPick || pallet.state == PalletState::kOnFork) {
     out["bizStep"] = "transporting";
-    out["disposition"] = "in_transit";
+    out["disposition"] = in_doubt ? "unknown" : "in_transit";
   } else {
     out["bizStep"] = gone ? "departing" : "storing";
-    out["disposition"] = gone ? "in_transit" : pallet.state == PalletState::kUncertain ? "unknown" : "in_progress";
+    out["disposition"] = gone ? "in_transit" : in_doubt ? "unknown" : "in_progress";
     if (!gone) out["bizLocation"] = place(params, pallet);
   }
   if (!pallet.type.empty()) out["lodestar:palletType"] = utf8(pallet.type);

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -256,6 +257,17 @@ TEST_F(WmsBridge, AnEventThatWasWrittenDownIsToldWhoeverDies) {
   bridge = std::make_unique<Node>(folder_ / "node.log");
   expect_arrived(4);
   EXPECT_EQ(diagnostics_.count(kNode, "missed"), 0);
+
+  // Told while there was no bridge, under numbers that began anew.
+  bridge->end(SIGKILL);
+  tracking.end(SIGKILL);
+  std::filesystem::remove(folder_ / "pallets");
+  tracking.start();
+  tracking.work(false);
+  tracking.work(true);
+  tracking.work(false);
+  bridge = std::make_unique<Node>(folder_ / "node.log");
+  expect_arrived(6);
 }
 
 TEST_F(WmsBridge, TellsTheTrucksState) {
@@ -286,6 +298,24 @@ TEST_F(WmsBridge, TellsTheTrucksState) {
   EXPECT_EQ(state["agvPosition"]["localizationScore"], 0.5);
   ASSERT_EQ(state["loads"].size(), 1u);
   EXPECT_EQ(state["loads"][0]["loadId"], "106141412345678908");
+
+  // What is lifted is a load, although nobody knows which pallet it is; what stands in doubt is none.
+  PalletChange doubtful = change(5);
+  doubtful.pallet.state = PalletState::kUncertain;
+  doubtful.pallet.sscc.clear();
+  pallets.pallets = {pallet_message(doubtful.pallet), pallet_message(test::uncertain().pallet)};
+  pallets.pallets[1].id = test::uuid(7);
+  events_.publish(pallet_event_message(doubtful, "map"));
+  EXPECT_TRUE(counted("recorded", 1));
+  state_.publish(pallets);
+  EXPECT_TRUE(until([&] {
+    const json& loads = vda_heard_["state"]["loads"];
+    return loads.size() == 1 && loads[0]["loadId"] == "urn:uuid:" + doubtful.pallet.id;
+  })) << vda_heard_["state"].dump();
+  events_.publish(pallet_event_message(test::uncertain(), "map"));
+  EXPECT_TRUE(counted("recorded", 2));
+  state_.publish(pallets);
+  EXPECT_TRUE(until([&] { return vda_heard_["state"]["loads"].empty(); })) << vda_heard_["state"].dump();
   EXPECT_TRUE(until([&] { return vda_heard_["state"]["batteryState"]["batteryCharge"] == 50.0; }));
   EXPECT_EQ(vda_heard_["connection"]["connectionState"], "ONLINE");
   EXPECT_EQ(vda_heard_["factsheet"]["version"], "2.1.0");

@@ -55,7 +55,9 @@ void WmsBridgeNodelet::onInit() {
   battery_ = nh.subscribe("battery", 1, &WmsBridgeNodelet::take_battery, this);
   events_after_ = nh.serviceClient<PalletEventsAfter>("pallets/events_after");
   catch_up_ = nh.createWallTimer(ros::WallDuration(kCatchUpPeriod_s), [this](const ros::WallTimerEvent&) {
-    if (told_ > bridge_->last_heard()) ask_for_missed();
+    const std::uint64_t heard = bridge_->last_heard();
+    if (told_ > heard) ask_for_missed(heard);
+    if (0 < told_ && told_ < heard) ask_for_missed(0);  // tracking began anew
   });
   poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s),
                              [this](const ros::WallTimerEvent&) { bridge_->poll(clocks()); });
@@ -68,7 +70,7 @@ WmsBridgeNodelet::~WmsBridgeNodelet() {
 void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
   events_watch_->tick();
   const bool gap = message->sequence > bridge_->last_heard() + 1;
-  if (gap) ask_for_missed();
+  if (gap) ask_for_missed(bridge_->last_heard());
   if (gap && bridge_->last_heard() >= message->sequence) return;  // it was among them
   record(*message);
 }
@@ -76,13 +78,15 @@ void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
 void WmsBridgeNodelet::record(const PalletEvent& message) {
   auto change = pallet_change_from(message, map_frame_);
   if (!change) return health_->drop(change.error());
+  if (message.kind == PalletEvent::PICK) lifted_.insert(message.pallet.id);
+  if (message.kind == PalletEvent::DROP) lifted_.clear();  // the fork lets go of all at once
   bridge_->take(std::move(change).value(), clocks());
 }
 
 /// What was told while nobody listened, or written down by a node that died before it told it.
-void WmsBridgeNodelet::ask_for_missed() {
+void WmsBridgeNodelet::ask_for_missed(std::uint64_t after) {
   PalletEventsAfter service;
-  service.request.sequence = bridge_->last_heard();
+  service.request.sequence = after;
   if (!events_after_.call(service)) return;  // it is not there, or is being started again
   for (const PalletEvent& message : service.response.events) record(message);
 }
@@ -91,7 +95,8 @@ void WmsBridgeNodelet::take_state(const PalletArrayConstPtr& message) {
   told_ = message->last_event;
   std::vector<Pallet> on_fork;
   for (const PalletEntry& entry : message->pallets) {
-    if (entry.state != PalletEntry::ON_FORK) continue;
+    const bool in_doubt = entry.state == PalletEntry::UNCERTAIN && lifted_.count(entry.id) > 0;
+    if (entry.state != PalletEntry::ON_FORK && !in_doubt) continue;
     auto pallet = pallet_from(entry);
     if (!pallet) return health_->drop(pallet.error());
     on_fork.push_back(std::move(pallet).value());

@@ -59,6 +59,16 @@ TEST(Documents, PickTiesThePalletToTheTruck) {
   EXPECT_FALSE(event.contains("bizLocation"));
 }
 
+TEST(Documents, APickInDoubtIsOnTheForkAllTheSame) {
+  PalletChange pick = uncertain();
+  pick.kind = PalletChangeKind::kPick;
+  const json event = events_of(document(pick))[0];
+  EXPECT_EQ(event["bizStep"], "transporting");
+  EXPECT_EQ(event["disposition"], "unknown");
+  EXPECT_EQ(event["lodestar:state"], "uncertain");
+  EXPECT_FALSE(event.contains("bizLocation"));
+}
+
 TEST(Documents, DropTellsWhereItStands) {
   const json events = events_of(document(change(2)));
   ASSERT_EQ(events.size(), 2u);

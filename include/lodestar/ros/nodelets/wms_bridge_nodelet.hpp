@@ -5,6 +5,7 @@
 #include <sensor_msgs/BatteryState.h>
 
 #include <memory>
+#include <set>
 #include <string>
 
 #include "lodestar/PalletArray.h"
@@ -25,7 +26,7 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   void onInit() override;
   void take_event(const PalletEventConstPtr& message);
   void record(const PalletEvent& message);
-  void ask_for_missed();
+  void ask_for_missed(std::uint64_t after);
   void take_state(const PalletArrayConstPtr& message);
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void take_integrity(const PoseIntegrityConstPtr& message);
@@ -40,7 +41,8 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   std::unique_ptr<Bridge> bridge_;
   StreamWatch* events_watch_ = nullptr;
   StreamWatch* pose_watch_ = nullptr;
-  std::uint64_t told_ = 0;  ///< number of the newest event that pallet tracking has
+  std::uint64_t told_ = 0;        ///< number of the newest event that pallet tracking has
+  std::set<std::string> lifted_;  ///< ids of what the fork took, in doubt or not
   ros::Subscriber events_, state_, pose_, integrity_, battery_;
   ros::ServiceClient events_after_;
   ros::WallTimer poll_, catch_up_;
