@@ -162,6 +162,19 @@ TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
 }
 
+TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
+  const FakeGigeCamera camera;
+  ros::param::set("/camera_capture/trigger", "Software");
+  set("stale_warn_s", 0.1);
+  ASSERT_TRUE(load(FakeGigeCamera::kUri));
+  ASSERT_TRUE(wait_for([&] {
+    const std::string age_s = diagnostics_.value(kNode, "images age_s");
+    return !age_s.empty() && std::stod(age_s) > 0.5;
+  }));
+  EXPECT_EQ(diagnostics_.message(kNode).find("images"), std::string::npos) << diagnostics_.message(kNode);
+  loader_.reset();  // before its camera, or it waits for answers
+}
+
 TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {
   const FakeGigeCamera camera;
   set("exposure_s", 20);

@@ -57,7 +57,7 @@ void CameraCaptureNodelet::onInit() {
                                        [this](std::size_t bytes) { return pool_.take(bytes); }, transfer_s);
   open_or_refuse();
   health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "camera capture", uri, limits);
-  images_watch_ = &health_->watch("images", Need::kRequired);
+  images_watch_ = &health_->watch("images", settings.trigger.empty() ? Need::kRequired : Need::kOptional);
   health_->add_report([this](Health::Status& status) { report(status); });
   const ros::NodeHandle camera_nh(nh, "camera");
   calibration_ = std::make_unique<Calibration>(camera_nh, name, url);

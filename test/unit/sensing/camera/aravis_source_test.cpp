@@ -151,6 +151,24 @@ TEST_F(AravisSourceTest, KilledAndStartedAgain) {
   EXPECT_GE(capture.report().reconnects, 1u);
 }
 
+// No frame is awaited, so only the camera's own silence tells.
+TEST_F(AravisSourceTest, KilledWhileItWaitsForItsTrigger) {
+  FakeGigeCamera camera;
+  settings_.trigger = "Software";
+  Capture capture = this->capture();
+  capture.open();
+  camera.unplug();
+  const auto unplugged = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::steady_clock::now() - unplugged; };
+  while (capture.report().state == CaptureState::kRunning && passed() < std::chrono::seconds(20)) capture.next();
+  EXPECT_EQ(capture.report().state, CaptureState::kClosed);
+  EXPECT_NE(capture.report().fault.find("does not answer"), std::string::npos) << capture.report().fault;
+  EXPECT_LT(passed(), std::chrono::seconds(10));
+  camera.plug_in();
+  while (capture.report().reconnects == 0 && passed() < std::chrono::seconds(30)) capture.next();
+  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
+}
+
 TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {
   const FakeGigeCamera camera(2);
   Capture capture = this->capture();
