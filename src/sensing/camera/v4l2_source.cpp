@@ -63,6 +63,13 @@ double V4l2Source::exposure_s() {
   return port_->control(VIDIOC_G_CTRL, &exposure) == 0 ? exposure.value * kV4l2ExposureUnit_s : 0;
 }
 
+double V4l2Source::period_s() {
+  auto parameters = of_capture<v4l2_streamparm>();
+  if (port_->control(VIDIOC_G_PARM, &parameters) != 0) return 0;
+  const v4l2_fract& interval = parameters.parm.capture.timeperframe;
+  return interval.numerator > 0 && interval.denominator > 0 ? 1 / v4l2_rate(interval) : 0;
+}
+
 void V4l2Source::set_format(const CameraSettings& settings) {
   auto format = of_capture<v4l2_format>();
   demand(VIDIOC_G_FMT, &format, "asking for its format");
@@ -120,6 +127,7 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
   SourceInfo info;
   info.name = name_ + " " + reinterpret_cast<const char*>(capability.card);
   info.exposure_s = exposure_s();
+  info.period_s = period_s();
   info.clock.frame_id_bits = 32;
   allocate_ = allocate;
   map_buffers(info.clock);

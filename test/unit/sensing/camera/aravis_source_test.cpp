@@ -45,6 +45,7 @@ TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
   const auto source = open_source(FakeGigeCamera::kUri);
   const SourceInfo info = source->start(settings_, memory_.allocator());
   EXPECT_NEAR(info.exposure_s, 0.002, 1e-9);
+  EXPECT_NEAR(info.period_s, 0.01, 1e-6);
   EXPECT_EQ(info.clock.frame_id_bits, 16);
   for (int i = 0; i < 10; ++i) {
     const auto frame = source->next(std::chrono::seconds(1));

@@ -29,7 +29,7 @@ struct FakeCamera : V4l2Port {
   std::vector<std::vector<std::uint8_t>> memory;
   std::deque<std::uint32_t> queue;
   std::vector<std::uint8_t> picture;  ///< of the next frames
-  std::uint32_t sequence = 0, next_flags = 0;
+  std::uint32_t sequence = 0, next_flags = 0, rate_hz = 30;
   bool streaming = false, unplugged = false;
 
   explicit FakeCamera(std::map<std::uint32_t, int>& controls_in) : controls(controls_in) {
@@ -91,8 +91,12 @@ struct FakeCamera : V4l2Port {
       case VIDIOC_S_PARM: {
         auto& interval = as<v4l2_streamparm>(argument).parm.capture.timeperframe;
         interval = {1, interval.denominator / interval.numerator >= 45 ? 60u : 30u};
+        rate_hz = interval.denominator;
         return 0;
       }
+      case VIDIOC_G_PARM:
+        as<v4l2_streamparm>(argument).parm.capture.timeperframe = {1, rate_hz};
+        return 0;
       case VIDIOC_REQBUFS:
         memory.assign(as<v4l2_requestbuffers>(argument).count, std::vector<std::uint8_t>(64 * 48 * 2));
         return 0;
@@ -230,6 +234,7 @@ TEST_F(V4l2SourceTest, NothingIsAutomatic) {
   EXPECT_EQ(controls_[V4L2_CID_EXPOSURE_ABSOLUTE], 20);
   EXPECT_EQ(controls_[V4L2_CID_GAIN], 7);
   EXPECT_DOUBLE_EQ(info.exposure_s, 0.002);
+  EXPECT_DOUBLE_EQ(info.period_s, 1 / 60.0);
   EXPECT_EQ(info.clock.stamped, SourceClock::Stamped::kExposureStart);
   EXPECT_FALSE(info.clock.heard_at_arrival);
 }
