@@ -119,7 +119,9 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
 
   set_if_there(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL);
   set_if_there(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);  // it would lower the rate in the dark
-  set_if_there(V4L2_CID_AUTOGAIN, 0);
+  for (const std::uint32_t automatic : {V4L2_CID_AUTOGAIN, V4L2_CID_FOCUS_AUTO, V4L2_CID_AUTO_WHITE_BALANCE,
+                                        V4L2_CID_AUTOBRIGHTNESS, V4L2_CID_BACKLIGHT_COMPENSATION})
+    set_if_there(automatic, 0);
   if (settings.rate_hz) set_rate(*settings.rate_hz);
   if (settings.exposure_s) set(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kV4l2ExposureUnit_s);
   if (settings.gain) set(V4L2_CID_GAIN, *settings.gain);

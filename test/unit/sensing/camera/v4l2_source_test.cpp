@@ -228,9 +228,15 @@ TEST_F(V4l2SourceTest, NothingIsAutomatic) {
   settings_.exposure_s = 0.002;
   settings_.gain = 7;
   settings_.rate_hz = 60;
+  const auto switches = {V4L2_CID_AUTOGAIN, V4L2_CID_FOCUS_AUTO, V4L2_CID_AUTO_WHITE_BALANCE, V4L2_CID_AUTOBRIGHTNESS,
+                         V4L2_CID_BACKLIGHT_COMPENSATION};
+  for (const std::uint32_t automatic : switches) {
+    camera_->ranges[automatic] = {0, 1};
+    controls_[automatic] = 1;
+  }
   const SourceInfo info = start();
   EXPECT_EQ(controls_[V4L2_CID_EXPOSURE_AUTO], V4L2_EXPOSURE_MANUAL);
-  EXPECT_EQ(controls_[V4L2_CID_AUTOGAIN], 0);
+  for (const std::uint32_t automatic : switches) EXPECT_EQ(controls_[automatic], 0) << automatic;
   EXPECT_EQ(controls_[V4L2_CID_EXPOSURE_ABSOLUTE], 20);
   EXPECT_EQ(controls_[V4L2_CID_GAIN], 7);
   EXPECT_DOUBLE_EQ(info.exposure_s, 0.002);
