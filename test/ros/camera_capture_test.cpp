@@ -2,6 +2,7 @@
 // Vision camera, or pictures on disk.
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <stdlib.h>
 
@@ -179,6 +180,19 @@ TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {
   const FakeGigeCamera camera;
   set("exposure_s", 20);
   EXPECT_FALSE(load(FakeGigeCamera::kUri));
+}
+
+// Whether a gain may be negative is for the camera to say.
+TEST_F(GigeCapture, TheLimitsOfAGainAreTheCameras) {
+  const FakeGigeCamera camera;
+  Inbox<rosgraph_msgs::Log> log(nh_, "/rosout");
+  set("gain", -3);
+  EXPECT_FALSE(load(FakeGigeCamera::kUri));
+  EXPECT_TRUE(wait_for([&] {
+    return std::any_of(log.all().begin(), log.all().end(), [](const auto& line) {
+      return line->msg.find("gain is -3, the camera takes 0 to 10") != std::string::npos;
+    });
+  }));
 }
 
 // What the driver wrote is what the detector reads: the same address all the way.
