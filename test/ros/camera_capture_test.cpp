@@ -2,6 +2,7 @@
 // Vision camera, or pictures on disk.
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <stdlib.h>
 
@@ -162,10 +163,36 @@ TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
 }
 
+TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
+  const FakeGigeCamera camera;
+  ros::param::set("/camera_capture/trigger", "Software");
+  set("stale_warn_s", 0.1);
+  ASSERT_TRUE(load(FakeGigeCamera::kUri));
+  ASSERT_TRUE(wait_for([&] {
+    const std::string age_s = diagnostics_.value(kNode, "images age_s");
+    return !age_s.empty() && std::stod(age_s) > 0.5;
+  }));
+  EXPECT_EQ(diagnostics_.message(kNode).find("images"), std::string::npos) << diagnostics_.message(kNode);
+  loader_.reset();  // before its camera, or it waits for answers
+}
+
 TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {
   const FakeGigeCamera camera;
   set("exposure_s", 20);
   EXPECT_FALSE(load(FakeGigeCamera::kUri));
+}
+
+// Whether a gain may be negative is for the camera to say.
+TEST_F(GigeCapture, TheLimitsOfAGainAreTheCameras) {
+  const FakeGigeCamera camera;
+  Inbox<rosgraph_msgs::Log> log(nh_, "/rosout");
+  set("gain", -3);
+  EXPECT_FALSE(load(FakeGigeCamera::kUri));
+  EXPECT_TRUE(wait_for([&] {
+    return std::any_of(log.all().begin(), log.all().end(), [](const auto& line) {
+      return line->msg.find("gain is -3, the camera takes 0 to 10") != std::string::npos;
+    });
+  }));
 }
 
 // What the driver wrote is what the detector reads: the same address all the way.

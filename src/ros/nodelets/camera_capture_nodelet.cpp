@@ -15,8 +15,8 @@ namespace {
 constexpr std::chrono::milliseconds kRetry(200);
 constexpr double kWatch_s = 0.1;
 
-std::optional<double> number_if_given(ParamReader& reader, const std::string& key) {
-  const double value = reader.number(key, std::numeric_limits<double>::quiet_NaN(), {0});
+std::optional<double> number_if_given(ParamReader& reader, const std::string& key, const Range& range = {0}) {
+  const double value = reader.number(key, std::numeric_limits<double>::quiet_NaN(), range);
   return std::isnan(value) ? std::nullopt : std::optional<double>(value);
 }
 
@@ -28,7 +28,7 @@ std::optional<int> size_if_given(ParamReader& reader, const std::string& key) {
 CameraSettings read_settings(ParamReader& reader) {
   CameraSettings settings;
   settings.exposure_s = number_if_given(reader, "exposure_s");
-  settings.gain = number_if_given(reader, "gain");
+  settings.gain = number_if_given(reader, "gain", {});  // dB may be negative
   settings.rate_hz = number_if_given(reader, "rate_hz");
   settings.width_px = size_if_given(reader, "width_px");
   settings.height_px = size_if_given(reader, "height_px");
@@ -57,7 +57,7 @@ void CameraCaptureNodelet::onInit() {
                                        [this](std::size_t bytes) { return pool_.take(bytes); }, transfer_s);
   open_or_refuse();
   health_ = std::make_unique<Health>(nh, getPrivateNodeHandle(), "camera capture", uri, limits);
-  images_watch_ = &health_->watch("images", Need::kRequired);
+  images_watch_ = &health_->watch("images", settings.trigger.empty() ? Need::kRequired : Need::kOptional);
   health_->add_report([this](Health::Status& status) { report(status); });
   const ros::NodeHandle camera_nh(nh, "camera");
   calibration_ = std::make_unique<Calibration>(camera_nh, name, url);

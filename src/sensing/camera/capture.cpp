@@ -74,7 +74,8 @@ std::optional<CapturedFrame> Capture::take(Result<DeviceFrame, NoFrame> result) 
 
 void Capture::wait_longer() {
   silent_for_ += kPatience;
-  const Duration three_frames = from_seconds(3 * std::max(counter_.period_s(), 1 / settings_.rate_hz.value_or(1e9)));
+  const double told_s = std::max(info_.period_s, info_.exposure_s);
+  const Duration three_frames = from_seconds(3 * (counter_.period_s() > 0 ? counter_.period_s() : told_s));
   if (info_.triggered || silent_for_ < std::max(kSilence, three_frames)) return;
   missed_.add(NoFrame::kTimeout);
   lose(CaptureState::kSilent, info_.name + " is silent");

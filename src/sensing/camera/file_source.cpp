@@ -39,6 +39,7 @@ SourceInfo FileSource::start(const CameraSettings& settings, const FrameAllocato
   due_ = host_now();
   SourceInfo info;
   info.name = name;
+  info.period_s = 1 / rate_hz;
   info.clock.stamped = SourceClock::Stamped::kExposureMiddle;
   info.clock.heard_at_arrival = false;
   return info;

@@ -14,7 +14,7 @@ std::unique_ptr<FrameSource> open_source(const std::string& uri) {
   if (kind == "v4l2") return std::make_unique<V4l2Source>(address, open_v4l2_port(address));
   if (kind == "gige") return open_aravis_source(AravisBus::kGige, address);
   if (kind == "usb3") return open_aravis_source(AravisBus::kUsb3, address);
-  throw CameraRefusal({{"'" + uri + "'", 0, "is no camera: it has to begin with gige:, usb3:, v4l2: or file:"}});
+  throw CameraRefusal({{"'" + uri + "'", 0, "is no camera: it has to begin with gige:, usb3:, v4l2:, file: or sim:"}});
 }
 
 }  // namespace lodestar

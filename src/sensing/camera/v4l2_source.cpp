@@ -63,6 +63,13 @@ double V4l2Source::exposure_s() {
   return port_->control(VIDIOC_G_CTRL, &exposure) == 0 ? exposure.value * kV4l2ExposureUnit_s : 0;
 }
 
+double V4l2Source::period_s() {
+  auto parameters = of_capture<v4l2_streamparm>();
+  if (port_->control(VIDIOC_G_PARM, &parameters) != 0) return 0;
+  const v4l2_fract& interval = parameters.parm.capture.timeperframe;
+  return interval.numerator > 0 && interval.denominator > 0 ? 1 / v4l2_rate(interval) : 0;
+}
+
 void V4l2Source::set_format(const CameraSettings& settings) {
   auto format = of_capture<v4l2_format>();
   demand(VIDIOC_G_FMT, &format, "asking for its format");
@@ -112,7 +119,9 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
 
   set_if_there(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL);
   set_if_there(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);  // it would lower the rate in the dark
-  set_if_there(V4L2_CID_AUTOGAIN, 0);
+  for (const std::uint32_t automatic : {V4L2_CID_AUTOGAIN, V4L2_CID_FOCUS_AUTO, V4L2_CID_AUTO_WHITE_BALANCE,
+                                        V4L2_CID_AUTOBRIGHTNESS, V4L2_CID_BACKLIGHT_COMPENSATION})
+    set_if_there(automatic, 0);
   if (settings.rate_hz) set_rate(*settings.rate_hz);
   if (settings.exposure_s) set(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kV4l2ExposureUnit_s);
   if (settings.gain) set(V4L2_CID_GAIN, *settings.gain);
@@ -120,6 +129,7 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
   SourceInfo info;
   info.name = name_ + " " + reinterpret_cast<const char*>(capability.card);
   info.exposure_s = exposure_s();
+  info.period_s = period_s();
   info.clock.frame_id_bits = 32;
   allocate_ = allocate;
   map_buffers(info.clock);

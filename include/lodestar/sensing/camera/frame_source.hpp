@@ -69,6 +69,7 @@ struct SourceInfo {
   std::string name;  ///< URI, maker, model, serial number
   SourceClock clock;
   double exposure_s = 0;                       ///< as the camera says; 0: unknown
+  double period_s = 0;                         ///< from frame to frame, as the source says; 0: unknown
   std::optional<CameraIntrinsics> intrinsics;  ///< where the source itself knows its lens
   bool triggered = false;                      ///< frames come when someone else wants them: silence is no fault
 };

@@ -32,6 +32,7 @@ class V4l2Source : public FrameSource {
   void set(std::uint32_t control, double value);
   void set_if_there(std::uint32_t control, std::int32_t value);
   double exposure_s();
+  double period_s();
   void set_format(const CameraSettings& settings);
   void set_rate(double rate_hz);
   void map_buffers(SourceClock& clock);

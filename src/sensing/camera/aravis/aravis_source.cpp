@@ -3,6 +3,7 @@
 #include <arv.h>
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace lodestar {
@@ -30,9 +31,14 @@ constexpr Format kFormats[] = {{"mono8", "Mono8", ARV_PIXEL_FORMAT_MONO_8, 8},
 
 void delete_owner(void* owner) { delete static_cast<std::shared_ptr<void>*>(owner); }
 
+/// Comes from a thread of Aravis', which asks the camera again and again.
+void note_lost(ArvDevice*, std::atomic<bool>* lost) { *lost = true; }
+
 class AravisSource : public FrameSource {
  public:
-  AravisSource(std::string name, Reference<ArvCamera> camera) : name_(std::move(name)), camera_(std::move(camera)) {}
+  AravisSource(std::string name, Reference<ArvCamera> camera) : name_(std::move(name)), camera_(std::move(camera)) {
+    g_signal_connect(arv_camera_get_device(camera_.get()), "control-lost", G_CALLBACK(note_lost), &lost_);
+  }
 
   SourceInfo start(const CameraSettings& settings, const FrameAllocator& allocate) override;
   Result<DeviceFrame, NoFrame> next(Duration timeout) override;
@@ -75,6 +81,7 @@ class AravisSource : public FrameSource {
   Result<DeviceFrame, NoFrame> frame_of(ArvBuffer& buffer) const;
 
   std::string name_;
+  std::atomic<bool> lost_{false};  // goes after the camera, whose thread writes it
   Reference<ArvCamera> camera_;
   Reference<ArvStream> stream_;  // goes before the camera
   FrameAllocator allocate_;
@@ -175,6 +182,8 @@ SourceInfo AravisSource::info(const CameraSettings& settings) {
   info.name = name_ + " " + vendor + " " + model + (number.empty() ? "" : " " + number);
   info.triggered = !settings.trigger.empty();
   if (call(arv_camera_is_exposure_time_available)) info.exposure_s = call(arv_camera_get_exposure_time) * 1e-6;
+  const double rate_hz = call(arv_camera_is_frame_rate_available) ? call(arv_camera_get_frame_rate) : 0;
+  if (rate_hz > 0) info.period_s = 1 / rate_hz;
   const bool wide_ids = arv_camera_is_uv_device(camera_.get()) ||
                         (call(arv_camera_is_feature_available, "GevGVSPExtendedIDMode") &&
                          std::string(call(arv_camera_get_string, "GevGVSPExtendedIDMode")) == "On");
@@ -207,6 +216,7 @@ void AravisSource::push_new_buffer() {
 }
 
 Result<DeviceFrame, NoFrame> AravisSource::next(Duration timeout) {
+  if (lost_) throw CameraError(name_ + " does not answer any more");
   const auto timeout_us = std::chrono::duration_cast<std::chrono::microseconds>(timeout).count();
   const Reference<ArvBuffer> buffer(
       arv_stream_timeout_pop_buffer(stream_.get(), static_cast<guint64>(std::max<std::int64_t>(timeout_us, 0))));

@@ -45,6 +45,7 @@ TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
   const auto source = open_source(FakeGigeCamera::kUri);
   const SourceInfo info = source->start(settings_, memory_.allocator());
   EXPECT_NEAR(info.exposure_s, 0.002, 1e-9);
+  EXPECT_NEAR(info.period_s, 0.01, 1e-6);
   EXPECT_EQ(info.clock.frame_id_bits, 16);
   for (int i = 0; i < 10; ++i) {
     const auto frame = source->next(std::chrono::seconds(1));
@@ -149,6 +150,24 @@ TEST_F(AravisSourceTest, KilledAndStartedAgain) {
   camera.plug_in();
   EXPECT_TRUE(gets(capture, 10));
   EXPECT_GE(capture.report().reconnects, 1u);
+}
+
+// No frame is awaited, so only the camera's own silence tells.
+TEST_F(AravisSourceTest, KilledWhileItWaitsForItsTrigger) {
+  FakeGigeCamera camera;
+  settings_.trigger = "Software";
+  Capture capture = this->capture();
+  capture.open();
+  camera.unplug();
+  const auto unplugged = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::steady_clock::now() - unplugged; };
+  while (capture.report().state == CaptureState::kRunning && passed() < std::chrono::seconds(20)) capture.next();
+  EXPECT_EQ(capture.report().state, CaptureState::kClosed);
+  EXPECT_NE(capture.report().fault.find("does not answer"), std::string::npos) << capture.report().fault;
+  EXPECT_LT(passed(), std::chrono::seconds(10));
+  camera.plug_in();
+  while (capture.report().reconnects == 0 && passed() < std::chrono::seconds(30)) capture.next();
+  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
 }
 
 TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {

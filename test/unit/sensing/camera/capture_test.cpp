@@ -17,6 +17,7 @@ struct Script {
   std::deque<bool> there;  ///< for each opening; then: yes
   int opened = 0, open_now = 0;
   bool triggered = false;
+  double period_s = 0;
 };
 
 class ScriptedSource : public FrameSource {
@@ -30,6 +31,7 @@ class ScriptedSource : public FrameSource {
     SourceInfo info;
     info.name = "scripted";
     info.triggered = script_.triggered;
+    info.period_s = script_.period_s;
     return info;
   }
   Result<DeviceFrame, NoFrame> next(Duration) override {
@@ -95,6 +97,18 @@ TEST_F(CaptureTest, SilenceIsToldWithinHalfASecondAndThenTheCameraIsOpenedAnew) 
   EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
   EXPECT_EQ(capture_.report().reconnects, 1u);
   EXPECT_EQ(capture_.report().fault, "");
+}
+
+TEST_F(CaptureTest, ASlowCameraHasThreeOfItsOwnPeriods) {
+  script_.period_s = 1;
+  script_.steps.assign(9, Step::kTimeout);
+  script_.steps.push_back(Step::kFrame);
+  EXPECT_EQ(frames_of(10), 1);
+  EXPECT_EQ(frames_of(29), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(frames_of(1), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kSilent);
+  EXPECT_EQ(script_.opened, 1);
 }
 
 TEST_F(CaptureTest, ACameraThatWaitsForItsTriggerMayBeSilent) {

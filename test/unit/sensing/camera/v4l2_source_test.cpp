@@ -29,7 +29,7 @@ struct FakeCamera : V4l2Port {
   std::vector<std::vector<std::uint8_t>> memory;
   std::deque<std::uint32_t> queue;
   std::vector<std::uint8_t> picture;  ///< of the next frames
-  std::uint32_t sequence = 0, next_flags = 0;
+  std::uint32_t sequence = 0, next_flags = 0, rate_hz = 30;
   bool streaming = false, unplugged = false;
 
   explicit FakeCamera(std::map<std::uint32_t, int>& controls_in) : controls(controls_in) {
@@ -91,8 +91,12 @@ struct FakeCamera : V4l2Port {
       case VIDIOC_S_PARM: {
         auto& interval = as<v4l2_streamparm>(argument).parm.capture.timeperframe;
         interval = {1, interval.denominator / interval.numerator >= 45 ? 60u : 30u};
+        rate_hz = interval.denominator;
         return 0;
       }
+      case VIDIOC_G_PARM:
+        as<v4l2_streamparm>(argument).parm.capture.timeperframe = {1, rate_hz};
+        return 0;
       case VIDIOC_REQBUFS:
         memory.assign(as<v4l2_requestbuffers>(argument).count, std::vector<std::uint8_t>(64 * 48 * 2));
         return 0;
@@ -224,12 +228,19 @@ TEST_F(V4l2SourceTest, NothingIsAutomatic) {
   settings_.exposure_s = 0.002;
   settings_.gain = 7;
   settings_.rate_hz = 60;
+  const auto switches = {V4L2_CID_AUTOGAIN, V4L2_CID_FOCUS_AUTO, V4L2_CID_AUTO_WHITE_BALANCE, V4L2_CID_AUTOBRIGHTNESS,
+                         V4L2_CID_BACKLIGHT_COMPENSATION};
+  for (const std::uint32_t automatic : switches) {
+    camera_->ranges[automatic] = {0, 1};
+    controls_[automatic] = 1;
+  }
   const SourceInfo info = start();
   EXPECT_EQ(controls_[V4L2_CID_EXPOSURE_AUTO], V4L2_EXPOSURE_MANUAL);
-  EXPECT_EQ(controls_[V4L2_CID_AUTOGAIN], 0);
+  for (const std::uint32_t automatic : switches) EXPECT_EQ(controls_[automatic], 0) << automatic;
   EXPECT_EQ(controls_[V4L2_CID_EXPOSURE_ABSOLUTE], 20);
   EXPECT_EQ(controls_[V4L2_CID_GAIN], 7);
   EXPECT_DOUBLE_EQ(info.exposure_s, 0.002);
+  EXPECT_DOUBLE_EQ(info.period_s, 1 / 60.0);
   EXPECT_EQ(info.clock.stamped, SourceClock::Stamped::kExposureStart);
   EXPECT_FALSE(info.clock.heard_at_arrival);
 }
