@@ -64,6 +64,11 @@ void FusionStage::add_sightings(const Sightings& sightings) {
   if (watch_.distrusted().size() != distrusted) pick_trusted();
 }
 
+void FusionStage::distrust(const std::set<BeaconId>& ids) {
+  watch_.distrust(ids);
+  pick_trusted();
+}
+
 void FusionStage::confirm(BeaconId id) {
   watch_.confirm(id);
   pick_trusted();

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <random>
@@ -20,7 +21,7 @@ using Bytes = std::vector<std::uint8_t>;
 const char* const kNode = "ir_receiver";
 const char* const kDevice = "/tmp/lodestar_test_board";
 
-/// A receiver board at the other end of a pseudo-terminal.
+/// A receiver board at the other end of a pseudo-terminal that somebody left with two stop bits and flow control.
 class SimulatedBoard {
  public:
   SimulatedBoard() {
@@ -28,6 +29,11 @@ class SimulatedBoard {
     master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
     grantpt(master_);
     unlockpt(master_);
+    termios line = settings();
+    line.c_cflag |= CSTOPB | CRTSCTS;
+    line.c_iflag |= IXOFF;
+    EXPECT_EQ(tcsetattr(master_, TCSANOW, &line), 0);
+    EXPECT_FALSE(is_8n1());
     EXPECT_EQ(symlink(ptsname(master_), kDevice), 0);
   }
   ~SimulatedBoard() { unplug(); }
@@ -35,6 +41,12 @@ class SimulatedBoard {
     unlink(kDevice);
     if (master_ >= 0) close(master_);
     master_ = -1;
+  }
+
+  /// Eight bits, no parity, one stop bit, and no flow control. Both ends have the same settings.
+  bool is_8n1() const {
+    const termios line = settings();
+    return (line.c_cflag & (CSIZE | PARENB | CSTOPB | CRTSCTS)) == CS8 && (line.c_iflag & (IXON | IXOFF)) == 0;
   }
 
   /// The board's clock, which began when the board did.
@@ -57,6 +69,12 @@ class SimulatedBoard {
   void send_frame(std::uint8_t mark) { write(frame_packet(mark)); }
 
  private:
+  termios settings() const {
+    termios line{};
+    EXPECT_EQ(tcgetattr(master_, &line), 0);
+    return line;
+  }
+
   int master_ = -1;
   ros::Time started_ = ros::Time::now();
 };
@@ -80,6 +98,8 @@ TEST_F(IrReceiver, HearsABoardThatLiesAndIsUnplugged) {
     board->send_time();
     return diagnostics_.level(kNode) == 0 && diagnostics_.count(kNode, "packets") > 2;
   })) << diagnostics_.message(kNode);
+
+  EXPECT_TRUE(board->is_8n1());
 
   // A frame, in our time and in units of full scale.
   const ros::Time sent = ros::Time::now();

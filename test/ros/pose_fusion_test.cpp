@@ -1,12 +1,18 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+#include <std_msgs/UInt32MultiArray.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
+#include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/BeaconSightingArray.h"
 #include "lodestar/PoseIntegrity.h"
 #include "lodestar/estimation/fusion/pose_filter.hpp"
@@ -16,6 +22,7 @@
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
 #include "ros/support/truth.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -27,6 +34,9 @@ const char* const kNode = "pose_fusion";
 class PoseFusion : public testing::Test {
  protected:
   void SetUp() override {
+    ros::param::set("/pose_fusion/memory", memory_);
+    std::ofstream(memory_) << "[13]";
+    load_node();
     player_.answered_by([this] { return sightings_.size(); });
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
@@ -38,13 +48,37 @@ class PoseFusion : public testing::Test {
     return wait_for([&] { return diagnostics_.count(kNode, std::string("dropped: ") + reason) >= at_least; });
   }
 
+  static void load_node() {
+    nodelet::NodeletLoad load;
+    load.request.name = "/pose_fusion";
+    load.request.type = "lodestar/PoseFusionNodelet";
+    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30)));
+    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load));
+  }
+  static void unload_node() {
+    nodelet::NodeletUnload unload;
+    unload.request.name = "/pose_fusion";
+    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
+  }
+  bool left_out(const std::string& ids) {
+    return wait_for([&] {
+      return diagnostics_.heard(kNode) && diagnostics_.value(kNode, "left out until confirmed") == ids &&
+             (diagnostics_.message(kNode).find("left out until confirmed: beacons " + ids) != std::string::npos) !=
+                 ids.empty();
+    });
+  }
+
   ros::NodeHandle nh_;
+  TemporaryFolder folder_;
+  const std::string memory_ = folder_ / "distrusted.yaml";
   BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
   Inbox<BeaconSightingArray> sightings_{nh_, "/beacons/sightings"};
   Inbox<geometry_msgs::PoseWithCovarianceStamped> poses_{nh_, "/pose"};
   Inbox<nav_msgs::Odometry> odometry_{nh_, "/odometry/filtered"};
   Inbox<PoseIntegrity> integrity_{nh_, "/pose/integrity"};
   Diagnostics diagnostics_{nh_};
+  Inbox<std_msgs::UInt32MultiArray> distrusted_{nh_, "/beacons/distrusted"};
+  ros::Publisher confirmed_out_ = nh_.advertise<BeaconAnnouncement>("/beacons/confirmed", 10);
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
   ros::Publisher fix_out_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/beacons/fix", 10);
   tf2_ros::Buffer tf_;
@@ -52,6 +86,24 @@ class PoseFusion : public testing::Test {
 };
 
 TEST_F(PoseFusion, FollowsTheTruthAndOutlivesBadInput) {
+  // A beacon that was left out before the node began is named, also after one more start, until it is confirmed.
+  EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
+  unload_node();
+  diagnostics_.forget(kNode);
+  load_node();
+  EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
+  ASSERT_TRUE(wait_for([&] { return !distrusted_.empty() && distrusted_.last().data.size() == 1; }));
+  EXPECT_EQ(distrusted_.last().data[0], 13u);
+  BeaconAnnouncement confirmation;
+  confirmation.beacon_id = 13;
+  EXPECT_TRUE(wait_for([&] { return confirmed_out_.getNumSubscribers() > 0; }));
+  confirmed_out_.publish(confirmation);
+  EXPECT_TRUE(left_out("")) << diagnostics_.message(kNode);
+  std::ifstream file(memory_);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}).find("13"), std::string::npos);
+  ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
+  ASSERT_TRUE(wait_for([&] { return poses_.connected() && odometry_.connected(); }));
+
   EXPECT_TRUE(wait_for([&] { return diagnostics_.value(kNode, "mode") == name(FilterMode::kStarting); }));
   EXPECT_GE(diagnostics_.level(kNode), 1);
   player_.play(4.0);

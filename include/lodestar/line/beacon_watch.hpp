@@ -35,6 +35,8 @@ class BeaconWatch {
 
   const std::set<BeaconId>& distrusted() const { return distrusted_; }
   std::vector<Beacon> trusted(const std::vector<Beacon>& beacons) const;
+  /// What was distrusted before this watch began.
+  void distrust(const std::set<BeaconId>& ids) { distrusted_.insert(ids.begin(), ids.end()); }
   void confirm(BeaconId id);
 
   /// Time went backwards.

@@ -37,6 +37,8 @@ class FusionStage {
   const std::set<BeaconId>& distrusted() const { return watch_.distrusted(); }
   /// All others of those set.
   const std::vector<Beacon>& trusted() const { return trusted_; }
+  /// Those of an earlier run.
+  void distrust(const std::set<BeaconId>& ids);
   void confirm(BeaconId id);
 
   const PoseFilter& filter() const { return filter_; }

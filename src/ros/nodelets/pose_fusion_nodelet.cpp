@@ -60,13 +60,14 @@ void PoseFusionNodelet::onInit() {
   confirmed_ =
       nh.subscribe<BeaconAnnouncement>("beacons/confirmed", 10, [this](const BeaconAnnouncementConstPtr& message) {
         stage_->confirm(BeaconId{message->beacon_id});
-        publish_distrusted();
+        keep_distrusted();
       });
   publish_distrusted();
 }
 
 void PoseFusionNodelet::read_params(ParamReader& params) {
   publish_rate_hz_ = params.number("publish_rate_hz", 50, {1, 1000});
+  memory_ = std::make_unique<DistrustMemory>(params.text("memory", ""));
   odom_frame_ = params.text("odom_frame", "odom");
   use_sightings_ = params.flag("use_sightings", true);
   slew_m_s_ = params.number("slew_m_s", slew_m_s_, {0, 100});
@@ -85,6 +86,7 @@ void PoseFusionNodelet::make_stage() {
   params.filter.camera_time_offset_sigma_s = camera_time_offset_sigma_s_;
   params.use_sightings = use_sightings_;
   stage_ = std::make_unique<FusionStage>(params);
+  stage_->distrust(memory_->load());
   slew_ = std::make_unique<PoseSlew>(slew_m_s_, slew_rad_s_);
 }
 
@@ -99,8 +101,13 @@ void PoseFusionNodelet::take_sightings(const BeaconSightingArrayConstPtr& messag
   camera_revision_ = camera_->revision();
   const std::size_t distrusted = stage_->distrusted().size();
   stage_->add_sightings(*sightings);
-  if (stage_->distrusted().size() != distrusted) publish_distrusted();
+  if (stage_->distrusted().size() != distrusted) keep_distrusted();
   publish_if_due();
+}
+
+void PoseFusionNodelet::keep_distrusted() {
+  memory_->save(stage_->distrusted());
+  publish_distrusted();
 }
 
 /// All of them at once, latched: a node that starts later knows them too.
@@ -182,6 +189,7 @@ void PoseFusionNodelet::report_liars(Health::Status& status) {
       ids += (ids.empty() ? "" : " ") + std::to_string(check.beacon.value);
   status.add("beacons that lie", ids.empty() ? "none" : ids);
   if (!ids.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "beacons that lie: " + ids);
+  if (!memory_->fault().empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, memory_->fault());
   std::string left_out;
   for (const BeaconId id : stage_->distrusted()) left_out += (left_out.empty() ? "" : " ") + std::to_string(id.value);
   status.add("left out until confirmed", left_out);

@@ -22,9 +22,17 @@ void SerialLine::poll() {
 }
 
 void SerialLine::open() {
+  using Port = asio::serial_port;
   error_code error;
+  const auto set = [&](const auto& option) {
+    if (!error) port_.set_option(option, error);
+  };
   port_.open(device_, error);
-  if (!error) port_.set_option(asio::serial_port::baud_rate(baud_), error);
+  set(Port::baud_rate(baud_));
+  set(Port::character_size(8));
+  set(Port::parity(Port::parity::none));
+  set(Port::stop_bits(Port::stop_bits::one));
+  set(Port::flow_control(Port::flow_control::none));
   if (error) return lose(error.message());
   fault_.clear();
   read();

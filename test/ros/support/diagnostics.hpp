@@ -14,6 +14,7 @@ class Diagnostics {
   explicit Diagnostics(ros::NodeHandle& nh)
       : subscriber_(nh.subscribe("/diagnostics", 100, &Diagnostics::take, this)) {}
 
+  void forget(const std::string& node) { latest_.erase(node); }
   bool heard(const std::string& node) const { return latest_.count(node) > 0; }
   int level(const std::string& node) const { return heard(node) ? latest_.at(node).level : -1; }
   std::string message(const std::string& node) const { return heard(node) ? latest_.at(node).message : ""; }

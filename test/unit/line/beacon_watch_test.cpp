@@ -40,6 +40,15 @@ TEST(BeaconWatch, a_minute_of_disagreement_leaves_a_beacon_out_until_it_is_confi
   EXPECT_TRUE(watch.distrusted().empty());
 }
 
+TEST(BeaconWatch, what_was_distrusted_before_stays_so_until_it_is_confirmed) {
+  BeaconWatch watch;
+  watch.distrust({BeaconId{1}});
+  see(watch, 0, 300, 3, false);
+  EXPECT_EQ(watch.distrusted(), std::set<BeaconId>{BeaconId{1}});
+  watch.confirm(BeaconId{1});
+  EXPECT_TRUE(watch.distrusted().empty());
+}
+
 TEST(BeaconWatch, one_against_one_says_nothing) {
   BeaconWatch watch;
   see(watch, 0, 300, 1);

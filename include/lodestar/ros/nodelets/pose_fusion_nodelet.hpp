@@ -12,6 +12,7 @@
 #include "lodestar/line/pose_slew.hpp"
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 #include "lodestar/ros/nodelets/camera_input.hpp"
+#include "lodestar/ros/nodelets/distrust_memory.hpp"
 #include "lodestar/ros/nodelets/motion_input.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"
 
@@ -34,6 +35,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   void report(Health::Status& status);
   void report_liars(Health::Status& status);
   void publish_distrusted();
+  void keep_distrusted();
   void reset();
 
   double publish_rate_hz_ = 50;
@@ -45,6 +47,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageEdge> edge_;
   std::unique_ptr<FusionStage> stage_;
   std::unique_ptr<PoseSlew> slew_;
+  std::unique_ptr<DistrustMemory> memory_;
   std::unique_ptr<CameraInput> camera_;
   std::unique_ptr<BeaconInput> beacons_;
   std::unique_ptr<MotionInput> motion_;

@@ -10,8 +10,8 @@
 
 namespace lodestar {
 
-/// A serial device, 8N1, that may be unplugged and plugged in again at any time: it is opened anew four times a second
-/// until it is there. No thread: whoever owns it polls.
+/// A serial device, 8N1 without flow control whatever the port was left with, that may be unplugged and plugged in
+/// again at any time: it is opened anew four times a second until it is there. No thread: whoever owns it polls.
 class SerialLine {
  public:
   using OnBytes = std::function<void(const std::uint8_t* bytes, std::size_t count)>;

@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 
 // The report (bench/irlink_report.cpp) has the whole curve. Three standard deviations of the count are allowed.
-TEST(DemodulatorConsistency, loses_no_more_frames_than_theory_does_with_half_a_decibel_less) {
+TEST(DemodulatorConsistency, loses_no_more_frames_than_theory_does_with_one_decibel_less) {
   constexpr int kTrials = 150;
   const double ideal_db = ideal_eb_n0_db(0.10);
   const FrameTrials trials = frame_trials(ideal_db + 1.0, kTrials);
@@ -17,6 +17,13 @@ TEST(DemodulatorConsistency, loses_no_more_frames_than_theory_does_with_half_a_d
   EXPECT_EQ(trials.false_frames, 0);
   EXPECT_LT(std::sqrt(trials.stamp_error2_s2 / (kTrials - trials.lost)), 3e-6);
   EXPECT_EQ(frame_trials(12, 50).lost, 0);
+}
+
+TEST(DemodulatorConsistency, loses_no_more_than_one_in_a_hundred_with_one_and_a_half_decibels_more_than_theory) {
+  constexpr int kTrials = 300;
+  const FrameTrials trials = frame_trials(ideal_eb_n0_db(0.01) + 1.5, kTrials);
+  EXPECT_LE(trials.lost, 0.01 * kTrials + 3 * std::sqrt(0.0099 * kTrials));
+  EXPECT_EQ(trials.false_frames, 0);
 }
 
 TEST(DemodulatorConsistency, hears_nothing_where_nothing_is) {
