@@ -10,38 +10,15 @@
 
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/sim/beacon_light.hpp"
-#include "lodestar/sim/lamp.hpp"
+#include "support/sim_camera.hpp"
 
 namespace lodestar::sim {
 namespace {
 
-RigidTransform origin(double) { return RigidTransform::Identity(); }
-
 CameraParams camera_640() {
-  CameraParams params;
-  params.ambient_e = 20;
-  params.read_noise_e = 8;
-  params.full_well_e = 10000;
-  params.gain_dn_per_e = 0.025;
-  params.black_level_dn = 8;
-  params.intrinsics.width_px = 640;
-  params.intrinsics.height_px = 480;
-  params.intrinsics.fx_px = params.intrinsics.fy_px = 229.2;
-  params.intrinsics.cx_px = 319.5;
-  params.intrinsics.cy_px = 239.5;
+  CameraParams params = test::sim_camera(640, 480, 229.2);
   params.intrinsics.coefficients = {0.02, -0.004, 0, 0};
   return params;
-}
-
-Scene lamp_at(const Eigen::Vector3d& position, double electrons_per_ms_1m) {
-  Random random(1, "test");
-  LampParams lamp;
-  lamp.path_m = {position};
-  lamp.electrons_per_ms_1m = electrons_per_ms_1m;
-  lamp.size_m = 0;
-  Scene scene;
-  scene.lights.push_back(std::make_shared<Lamp>(lamp, random));
-  return scene;
 }
 
 struct Moments {
@@ -65,7 +42,7 @@ TEST(CameraConsistency, DarkPixelsHaveTheSensorsMeanAndVariance) {
   params.gain_dn_per_e = 0.2;
   params.black_level_dn = 16;
   Camera camera(params, 3);
-  const Moments m = moments<std::uint8_t>(camera.expose({}, origin, 0));
+  const Moments m = moments<std::uint8_t>(camera.expose({}, test::at_origin, 0));
   EXPECT_NEAR(m.mean, 16 + 0.2 * 20, 0.02);
   // shot and read noise, and the rounding's 1/12
   EXPECT_NEAR(m.variance, 0.2 * 0.2 * (20 + 8 * 8) + 1.0 / 12, 0.03);
@@ -81,7 +58,7 @@ TEST(CameraConsistency, PhotonTransferHasTheGainAsItsSlope) {
   for (const double electrons : {0.0, 30.0, 300.0, 3000.0}) {
     params.ambient_e = electrons;
     Camera camera(params, 3);
-    const Moments m = moments<std::uint16_t>(camera.expose({}, origin, 0));
+    const Moments m = moments<std::uint16_t>(camera.expose({}, test::at_origin, 0));
     EXPECT_NEAR(m.mean - 400, 4 * electrons, 0.3 + 0.001 * 4 * electrons);
     EXPECT_NEAR(m.variance / (16 * (electrons + 100)), 1, 0.02) << electrons;
   }
@@ -89,7 +66,7 @@ TEST(CameraConsistency, PhotonTransferHasTheGainAsItsSlope) {
 
 TEST(CameraConsistency, FramesAreIndependentPixelByPixel) {
   Camera camera(camera_640(), 3);
-  const Image a = camera.expose({}, origin, 0), b = camera.expose({}, origin, 0.02);
+  const Image a = camera.expose({}, test::at_origin, 0), b = camera.expose({}, test::at_origin, 0.02);
   const Moments ma = moments<std::uint8_t>(a), mb = moments<std::uint8_t>(b);
   double covariance = 0;
   for (int v = 0; v < 480; ++v)
@@ -109,7 +86,7 @@ TEST(CameraConsistency, CentroidOfANoiselessBlobIsItsProjection) {
   params.black_level_dn = 0;
   Camera camera(params, 1);
   for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 4), {1.33, -0.71, 3}, {-3, 2, 2.5}, {0.02, 2.5, 2}}) {
-    const Image image = camera.expose(lamp_at(point, 5e8 * point.squaredNorm()), origin, 0);
+    const Image image = camera.expose(test::lamp_at(point, 5e8 * point.squaredNorm(), 0), test::at_origin, 0);
     double sum = 0;
     Eigen::Vector2d first = Eigen::Vector2d::Zero();
     for (int v = 0; v < 480; ++v)
@@ -134,7 +111,7 @@ TEST(CameraConsistency, ElectronsFollowDistanceEmitterAndLens) {
   lamp.lambert_exponent = 1;
   Scene scene;
   scene.lights.push_back(std::make_shared<Lamp>(lamp, random));
-  const auto blobs = camera.blobs(scene, origin, 0, 0.002);
+  const auto blobs = camera.blobs(scene, test::at_origin, 0, 0.002);
   ASSERT_EQ(blobs.size(), 1u);
   EXPECT_NEAR(blobs[0].electrons, 1000 * 2 / 25.0 * 0.8 * 0.8, 1e-9);
 }
@@ -202,7 +179,7 @@ TEST(CameraConsistency, ImageHoldsTheToneThatTheBlobsPromise) {
   const int frames = 60;
   for (int k = 0; k < frames; ++k) {
     const double t = 1 + k / 60.0;
-    const Image image = camera.expose(scene, origin, t);
+    const Image image = camera.expose(scene, test::at_origin, t);
     double dn = 0;
     for (int v = static_cast<int>(centre.y()) - 6; v <= centre.y() + 6; ++v)
       for (int u = static_cast<int>(centre.x()) - 6; u <= centre.x() + 6; ++u) dn += image.row<std::uint8_t>(v)[u];
@@ -216,8 +193,9 @@ TEST(CameraConsistency, ImageHoldsTheToneThatTheBlobsPromise) {
 
 TEST(CameraConsistency, SameSeedSameImage) {
   Camera a(camera_640(), 4), b(camera_640(), 4), c(camera_640(), 5);
-  const Scene scene = lamp_at({0.3, 0.1, 3}, 1e4);
-  const Image ia = a.expose(scene, origin, 0), ib = b.expose(scene, origin, 0), ic = c.expose(scene, origin, 0);
+  const Scene scene = test::lamp_at({0.3, 0.1, 3}, 1e4, 0);
+  const Image ia = a.expose(scene, test::at_origin, 0), ib = b.expose(scene, test::at_origin, 0),
+              ic = c.expose(scene, test::at_origin, 0);
   const auto same = [](const Image& x, const Image& y) { return std::equal(x.data, x.data + 640 * 480, y.data); };
   EXPECT_TRUE(same(ia, ib));
   EXPECT_FALSE(same(ia, ic));
@@ -235,7 +213,7 @@ TEST(CameraConsistency, AFrameIsCheap) {
   double fastest_ms = 1e9;  // of many: what else runs on the machine only makes frames slower
   for (int i = 0; i < 50; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    camera.expose(scene, origin, i * 0.02);
+    camera.expose(scene, test::at_origin, i * 0.02);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     if (i > 0) fastest_ms = std::min(fastest_ms, took.count());
   }

@@ -6,37 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lodestar/sim/lamp.hpp"
+#include "support/sim_camera.hpp"
 
 namespace lodestar::sim {
 namespace {
 
-CameraParams small_camera() {
-  CameraParams params;
-  params.ambient_e = 20;
-  params.read_noise_e = 8;
-  params.full_well_e = 10000;
-  params.gain_dn_per_e = 0.025;
-  params.black_level_dn = 8;
-  params.intrinsics.width_px = 160;
-  params.intrinsics.height_px = 120;
-  params.intrinsics.fx_px = params.intrinsics.fy_px = 60;
-  params.intrinsics.cx_px = 79.5;
-  params.intrinsics.cy_px = 59.5;
-  return params;
-}
-
-Scene lamp_at(const Eigen::Vector3d& position, double electrons_per_ms_1m) {
-  Random random(1, "test");
-  LampParams lamp;
-  lamp.path_m = {position};
-  lamp.electrons_per_ms_1m = electrons_per_ms_1m;
-  Scene scene;
-  scene.lights.push_back(std::make_shared<Lamp>(lamp, random));
-  return scene;
-}
-
-RigidTransform origin(double) { return RigidTransform::Identity(); }
+CameraParams small_camera() { return test::sim_camera(160, 120, 60); }
 
 int brightest(const Image& image, int& u, int& v) {
   int best = -1;
@@ -54,7 +29,7 @@ int brightest(const Image& image, int& u, int& v) {
 
 TEST(Camera, ShowsALightWhereItIs) {
   Camera camera(small_camera(), 1);
-  const Image image = camera.expose(lamp_at({1, 0.5, 3}, 1e5), origin, 0);
+  const Image image = camera.expose(test::lamp_at({1, 0.5, 3}, 1e5), test::at_origin, 0);
   EXPECT_EQ(image.width_px, 160);
   EXPECT_EQ(image.height_px, 120);
   EXPECT_EQ(image.bits, 8);
@@ -71,7 +46,7 @@ TEST(Camera, SixteenBitsHoldMoreThanEight) {
   params.gain_dn_per_e = 5;
   Camera camera(params, 1);
   int u = 0, v = 0;
-  const Image image = camera.expose(lamp_at({1, 0.5, 3}, 2e4), origin, 0);
+  const Image image = camera.expose(test::lamp_at({1, 0.5, 3}, 2e4), test::at_origin, 0);
   EXPECT_EQ(image.stride_bytes, 320u);
   const int best = brightest(image, u, v);
   EXPECT_GT(best, 300);
@@ -81,9 +56,9 @@ TEST(Camera, SixteenBitsHoldMoreThanEight) {
 TEST(Camera, ClipsAtTheConverterAndAtTheFullWell) {
   CameraParams params = small_camera();
   int u = 0, v = 0;
-  EXPECT_EQ(brightest(Camera(params, 1).expose(lamp_at({1, 0.5, 3}, 1e8), origin, 0), u, v), 255);
+  EXPECT_EQ(brightest(Camera(params, 1).expose(test::lamp_at({1, 0.5, 3}, 1e8), test::at_origin, 0), u, v), 255);
   params.full_well_e = 4000;  // 100 dn above black
-  EXPECT_NEAR(brightest(Camera(params, 1).expose(lamp_at({1, 0.5, 3}, 1e8), origin, 0), u, v), 108, 2);
+  EXPECT_NEAR(brightest(Camera(params, 1).expose(test::lamp_at({1, 0.5, 3}, 1e8), test::at_origin, 0), u, v), 108, 2);
 }
 
 TEST(Camera, SeesNothingBehindItselfOutsideItsFieldOrBehindTheMast) {
@@ -91,7 +66,9 @@ TEST(Camera, SeesNothingBehindItselfOutsideItsFieldOrBehindTheMast) {
   params.half_field_rad = 1.0;
   params.masts = {{-0.2, 0.2, 0.5}};
   Camera camera(params, 1);
-  const auto count = [&](const Eigen::Vector3d& p) { return camera.blobs(lamp_at(p, 1e5), origin, 0, 0.001).size(); };
+  const auto count = [&](const Eigen::Vector3d& p) {
+    return camera.blobs(test::lamp_at(p, 1e5), test::at_origin, 0, 0.001).size();
+  };
   EXPECT_EQ(count({0.1, 0.5, 3}), 1u);
   EXPECT_EQ(count({0, 0.5, -3}), 0u);
   EXPECT_EQ(count({0, 6, 3}), 0u);
@@ -110,7 +87,7 @@ TEST(Camera, SmearsALightAlongItsMotion) {
     return T;
   };
   const auto spread = [&](const Camera::Pose& pose) {
-    const Image image = camera.expose(lamp_at({0, 0, 3}, 5e3), pose, 0);
+    const Image image = camera.expose(test::lamp_at({0, 0, 3}, 5e3, 0.05), pose, 0);
     double sum = 0, u1 = 0, u2 = 0, v1 = 0, v2 = 0;
     for (int v = 0; v < image.height_px; ++v)
       for (int u = 0; u < image.width_px; ++u) {
@@ -119,7 +96,7 @@ TEST(Camera, SmearsALightAlongItsMotion) {
       }
     return Eigen::Vector2d(u2 / sum - u1 * u1 / sum / sum, v2 / sum - v1 * v1 / sum / sum);
   };
-  const Eigen::Vector2d still = spread(origin), moved = spread(turning);
+  const Eigen::Vector2d still = spread(test::at_origin), moved = spread(turning);
   EXPECT_NEAR(moved.x() - still.x(), 4.8 * 4.8 / 12, 0.3);
   EXPECT_NEAR(moved.y(), still.y(), 0.1);
 }

@@ -4,26 +4,15 @@
 
 #include <limits>
 
+#include "support/lenses.hpp"
+
 namespace lodestar {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-CameraIntrinsics fisheye() {
-  CameraIntrinsics intrinsics;
-  intrinsics.distortion = CameraIntrinsics::Distortion::kEquidistant;
-  intrinsics.width_px = 640;
-  intrinsics.height_px = 480;
-  intrinsics.fx_px = 229;
-  intrinsics.fy_px = 230;
-  intrinsics.cx_px = 319.7;
-  intrinsics.cy_px = 239.4;
-  intrinsics.coefficients = {0.02, -0.004, 0.001, -0.0002};
-  return intrinsics;
-}
-
 sensor_msgs::CameraInfo fisheye_message() {
-  return camera_info_message(fisheye(), Stamp(std::chrono::seconds(5)), "camera_optical_frame");
+  return camera_info_message(test::fisheye_640(), Stamp(std::chrono::seconds(5)), "camera_optical_frame");
 }
 
 TEST(CameraInfo, ComesBackForEachLensModel) {
@@ -31,7 +20,7 @@ TEST(CameraInfo, ComesBackForEachLensModel) {
   for (const auto& [distortion, name, coefficients] :
        {std::tuple{Distortion::kEquidistant, "equidistant", 4}, std::tuple{Distortion::kPlumbBob, "plumb_bob", 5},
         std::tuple{Distortion::kRationalPolynomial, "rational_polynomial", 8}}) {
-    CameraIntrinsics intrinsics = fisheye();
+    CameraIntrinsics intrinsics = test::fisheye_640();
     intrinsics.distortion = distortion;
     intrinsics.coefficients = {};
     for (int i = 0; i < coefficients; ++i) intrinsics.coefficients[static_cast<std::size_t>(i)] = 0.01 * (i + 1);
