@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lodestar/base/common/angle.hpp"
+#include "lodestar/evaluation/nees_band.hpp"
 #include "support/fault_drive.hpp"
 #include "support/nees_scenarios.hpp"
 #include "support/recovery_drive.hpp"
@@ -21,7 +22,7 @@ constexpr char kUsage[] =
     "report_fusion coasting [seeds, 20]      one beacon for 10 s, none for 5 s, kidnapped\n";
 
 void nees(int seeds, int first) {
-  const Band band3 = nees_band(seeds, 3), band6 = nees_band(seeds, 6);
+  const NeesBand band3 = nees_band(seeds, 3), band6 = nees_band(seeds, 6);
   std::printf("seeds %d to %d; 95 %% bands of the mean: NEES of 3 %.2f to %.2f, of 6 %.2f to %.2f\n\n", first,
               first + seeds - 1, band3.low, band3.high, band6.low, band6.high);
   std::printf("%-28s %8s %8s %10s %8s %8s %9s %9s\n", "scenario", "NEES/3", "NEES/6", "NIS beac.", "fixes", "wheels",

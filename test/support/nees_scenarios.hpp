@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "lodestar/base/common/chi_square.hpp"
 #include "support/fusion_run.hpp"
 
 namespace lodestar::test {
@@ -68,6 +67,7 @@ inline NeesScenario white_noise() {
   return scenario;
 }
 
+/// Errors of one drive are nearly the same at all its instants: in the band of the mean, a seed counts once.
 struct NeesOutcome {
   double nees3 = 0, nees6 = 0;  ///< mean over seeds and time
   double rmse_m = 0, yaw_rmse_rad = 0;
@@ -95,15 +95,6 @@ inline NeesOutcome run_nees(const NeesScenario& scenario, int seeds, int first =
   out.rmse_m = std::sqrt(out.rmse_m);
   out.yaw_rmse_rad = std::sqrt(out.yaw_rmse_rad);
   return out;
-}
-
-/// 95 % band of the mean over seeds. Errors of one drive are nearly the same at all its instants: a seed counts once.
-struct Band {
-  double low, high;
-  bool holds(double mean) const { return mean > low && mean < high; }
-};
-inline Band nees_band(int seeds, int dof) {
-  return {chi_square_quantile(0.025, seeds * dof) / seeds, chi_square_quantile(0.975, seeds * dof) / seeds};
 }
 
 }  // namespace lodestar::test

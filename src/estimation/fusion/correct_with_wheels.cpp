@@ -66,6 +66,44 @@ Tally use(FilterState& state, const Innovation<3>& m, const Gates& gates) {
   return tally;
 }
 
+/// @param last the sample before, which the leap is told from
+Tally correct_rolling(FilterState& state, const OdometrySample& sample, const std::optional<OdometrySample>& last,
+                      const Eigen::Vector3d& angular_velocity, const Rig& rig, const Gates& gates,
+                      const PoseFilterParams& params) {
+  const bool imu = imu_heard(state, params);
+  const double turning = (angular_velocity - state.gyro_bias).z();
+  const Eigen::Vector2d acceleration(imu ? acceleration_base(state).x() : 0.0, sample.velocity_m_s.x() * turning);
+  Innovation<3> wheels = wheels_innovation(state, sample, angular_velocity, acceleration, rig, params);
+  wheels.inflation = std::max(1.0, params.odometry_correlation_s / state.inputs.wheels_interval_s);
+
+  WheelLeap& leap = state.inputs.leap;
+  bool slips = false;
+  if (imu && last && seconds(state.stamp - last->stamp) < kLongestStep_s) {
+    const double state_step_m_s = along_m_s(state, angular_velocity, rig) - leap.along_m_s;
+    slips = watch_for_slip(state, wheels, sample.velocity_m_s.x() - last->velocity_m_s.x() - state_step_m_s, gates);
+  } else {
+    leap.leap_m_s = 0;
+  }
+  Tally tally = use(state, wheels, gates);
+  if (slips) {
+    tally.used = 0;
+    tally.gated = 1;
+  }
+  leap.along_m_s = along_m_s(state, angular_velocity, rig);
+  return tally;
+}
+
+Tally correct_standing(FilterState& state, const Eigen::Vector3d& angular_velocity, const Gates& gates,
+                       const PoseFilterParams& params) {
+  state.inputs.leap = WheelLeap{};
+  const Tally tally = use(state, standing_velocity_innovation(state), gates);
+  if (tally.used > 0 && imu_heard(state, params)) {
+    const Innovation<3> gyro = standing_gyro_innovation(state, angular_velocity, params);
+    if (squared_distance(state.P, gyro) <= gates.chi2_3) correct(state, gyro);
+  }
+  return tally;
+}
+
 }  // namespace
 
 void take_wheels(FilterState& state, const OdometrySample& sample, const PoseFilterParams& params) {
@@ -84,36 +122,11 @@ Tally correct_with_wheels(FilterState& state, const OdometrySample& sample, cons
                           const PoseFilterParams& params) {
   const std::optional<OdometrySample> last = state.inputs.wheels;
   take_wheels(state, sample, params);
-  const bool imu = imu_heard(state, params);
   const Eigen::Vector3d angular_velocity =
-      imu ? state.inputs.angular_velocity_rad_s
-          : Eigen::Vector3d(state.gyro_bias + Eigen::Vector3d(0, 0, sample.yaw_rate_rad_s));
-  if (!stands(state, params)) {
-    const double turning = (angular_velocity - state.gyro_bias).z();
-    const Eigen::Vector2d acceleration(imu ? acceleration_base(state).x() : 0.0, sample.velocity_m_s.x() * turning);
-    Innovation<3> wheels = wheels_innovation(state, sample, angular_velocity, acceleration, rig, params);
-    wheels.inflation = std::max(1.0, params.odometry_correlation_s / state.inputs.wheels_interval_s);
-    WheelLeap& leap = state.inputs.leap;
-    bool slips = false;
-    if (imu && last && seconds(state.stamp - last->stamp) < kLongestStep_s) {
-      const double step_m_s =
-          sample.velocity_m_s.x() - last->velocity_m_s.x() - (along_m_s(state, angular_velocity, rig) - leap.along_m_s);
-      slips = watch_for_slip(state, wheels, step_m_s, gates);
-    } else {
-      leap.leap_m_s = 0;
-    }
-    Tally tally = use(state, wheels, gates);
-    if (slips) tally.used = 0, tally.gated = 1;
-    leap.along_m_s = along_m_s(state, angular_velocity, rig);
-    return tally;
-  }
-  state.inputs.leap = WheelLeap{};
-  const Tally tally = use(state, standing_velocity_innovation(state), gates);
-  if (tally.used > 0 && imu) {
-    const Innovation<3> gyro = standing_gyro_innovation(state, angular_velocity, params);
-    if (squared_distance(state.P, gyro) <= gates.chi2_3) correct(state, gyro);
-  }
-  return tally;
+      imu_heard(state, params) ? state.inputs.angular_velocity_rad_s
+                               : Eigen::Vector3d(state.gyro_bias + Eigen::Vector3d(0, 0, sample.yaw_rate_rad_s));
+  return stands(state, params) ? correct_standing(state, angular_velocity, gates, params)
+                               : correct_rolling(state, sample, last, angular_velocity, rig, gates, params);
 }
 
 }  // namespace lodestar::fusion

@@ -29,6 +29,10 @@ constexpr double kLongestGap_s = 30.0;  ///< nothing heard for longer: where the
 
 double horizontal_sigma_m(const FilterState& state) { return std::sqrt(state.P(0, 0) + state.P(1, 1)); }
 
+fusion::NextInputs next_inputs(const StateBuffer& buffer, std::size_t i) {
+  return {buffer.next<ImuSample>(i), buffer.next<OdometrySample>(i)};
+}
+
 }  // namespace
 
 fusion::Gates::Gates(double probability)
@@ -151,7 +155,7 @@ Tally PoseFilter::apply(FilterState& state, std::size_t i) const {
     state.P.diagonal().head<2>().setConstant(std::numeric_limits<double>::infinity());
     return {};
   }
-  fusion::advance(state, entry.stamp, buffer_.next_imu(i), params_);
+  fusion::advance(state, entry.stamp, next_inputs(buffer_, i), params_);
   fusion::correct_with_floor(state, gates_, params_);
   Tally tally;
   if (const auto* imu = std::get_if<ImuSample>(&entry.event))
@@ -216,7 +220,7 @@ std::optional<StateEstimate> PoseFilter::estimate_at(Stamp stamp) const {
   if (count == 0 || !buffer_[count - 1].state) return std::nullopt;
   FilterState state = *buffer_[count - 1].state;
   if (count < buffer_.size())
-    fusion::advance(state, stamp, buffer_.next_imu(count), params_);
+    fusion::advance(state, stamp, next_inputs(buffer_, count), params_);
   else
     fusion::extrapolate(state, stamp, params_);
   return fusion::as_estimate(state, rig_, params_);

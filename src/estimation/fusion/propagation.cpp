@@ -125,6 +125,17 @@ void step_planar(FilterState& state, Stamp to, double yaw_rate_rad_s, const Pose
   state.stamp = to;
 }
 
+/// The wheels' yaw rate in the middle of a step to `to`: on the line from the sample in force to the next, or the one
+/// in force. Held over their interval instead, it would come half of that too late, 5 mrad in a turn of 0.5 rad/s.
+double yaw_rate_until(const FilterState& state, Stamp to, const OdometrySample* next) {
+  if (!wheels_heard(state)) return 0.0;
+  const OdometrySample& last = *state.inputs.wheels;
+  if (!next || next->stamp <= last.stamp) return last.yaw_rate_rad_s;
+  const double middle_s = 0.5 * (seconds(state.stamp - last.stamp) + seconds(to - last.stamp));
+  const double share = std::min(1.0, middle_s / seconds(next->stamp - last.stamp));
+  return last.yaw_rate_rad_s + share * (next->yaw_rate_rad_s - last.yaw_rate_rad_s);
+}
+
 /// Calls step(stamp) at the ends of equal parts of at most kMaxStep_s.
 template <class Step>
 void in_parts(Stamp from, Stamp to, Step&& step) {
@@ -248,12 +259,10 @@ Transition move_planar(CoreState& x, double yaw_rate_rad_s, double dt_s, const P
   return step;
 }
 
-void advance(FilterState& state, Stamp to, const ImuSample* next_imu, const PoseFilterParams& params) {
-  const Stamp inertial_end = inertial_until(state, to, next_imu, params);
-  in_parts(state.stamp, inertial_end, [&](Stamp t) { step_inertial(state, t, next_imu, params); });
-  in_parts(state.stamp, to, [&](Stamp t) {
-    step_planar(state, t, wheels_heard(state) ? state.inputs.wheels->yaw_rate_rad_s : 0.0, params);
-  });
+void advance(FilterState& state, Stamp to, const NextInputs& next, const PoseFilterParams& params) {
+  const Stamp inertial_end = inertial_until(state, to, next.imu, params);
+  in_parts(state.stamp, inertial_end, [&](Stamp t) { step_inertial(state, t, next.imu, params); });
+  in_parts(state.stamp, to, [&](Stamp t) { step_planar(state, t, yaw_rate_until(state, t, next.wheels), params); });
 }
 
 void extrapolate(FilterState& state, Stamp to, const PoseFilterParams& params) {

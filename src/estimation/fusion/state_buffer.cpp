@@ -33,12 +33,6 @@ FilterState& StateBuffer::state(std::size_t i) {
   return *state;
 }
 
-const ImuSample* StateBuffer::next_imu(std::size_t i) const {
-  for (; i < entries_.size(); ++i)
-    if (const auto* sample = std::get_if<ImuSample>(&entries_[i].event)) return sample;
-  return nullptr;
-}
-
 std::optional<std::size_t> StateBuffer::newest_motion() const {
   for (std::size_t i = entries_.size(); i > 0; --i)
     if (is_motion(entries_[i - 1].event)) return i - 1;

@@ -57,10 +57,15 @@ Eigen::Vector3d angular_velocity(const FilterState& state, const PoseFilterParam
 /// Acceleration over ground in base_link's axes, as the inertial input in force says it (m/s^2).
 Eigen::Vector3d acceleration_base(const FilterState& state);
 
+/// The motion samples that follow, where known: inputs are interpolated towards them.
+struct NextInputs {
+  const ImuSample* imu = nullptr;
+  const OdometrySample* wheels = nullptr;
+};
+
 /// Takes the state to a stamp (not before its own): by the inertial sensor while it is heard, else by the wheels, else
 /// by constant velocity.
-/// @param next_imu the inertial sample that follows, where known: the input is interpolated towards it
-void advance(FilterState& state, Stamp to, const ImuSample* next_imu, const PoseFilterParams& params);
+void advance(FilterState& state, Stamp to, const NextInputs& next, const PoseFilterParams& params);
 
 /// Takes the state to a stamp by constant velocity and turn: for instants that no motion sample covers.
 void extrapolate(FilterState& state, Stamp to, const PoseFilterParams& params);

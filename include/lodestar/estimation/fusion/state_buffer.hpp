@@ -44,8 +44,13 @@ class StateBuffer {
   /// The entry's state, made where there is none.
   FilterState& state(std::size_t i);
 
-  /// The first inertial sample at or after entry i. Null: none.
-  const ImuSample* next_imu(std::size_t i) const;
+  /// The first sample of this kind at or after entry i. Null: none.
+  template <class Sample>
+  const Sample* next(std::size_t i) const {
+    for (; i < entries_.size(); ++i)
+      if (const auto* sample = std::get_if<Sample>(&entries_[i].event)) return sample;
+    return nullptr;
+  }
 
   std::optional<std::size_t> newest_motion() const;
 

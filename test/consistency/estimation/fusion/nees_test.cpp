@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "lodestar/base/common/angle.hpp"
+#include "lodestar/evaluation/nees_band.hpp"
 #include "support/nees_scenarios.hpp"
 
 namespace lodestar::test {
@@ -20,7 +21,7 @@ TEST_P(Nees, is_in_its_band) {
       out.nees3, out.nees6, out.innovations.bearings.mean(), out.innovations.fixes.mean(),
       out.innovations.wheels.mean(), 1e3 * out.rmse_m, degrees(out.yaw_rmse_rad));
   for (const auto& [value, dof] : {std::pair{out.nees3, 3}, std::pair{out.nees6, 6}}) {
-    const Band band = nees_band(kSeeds, dof);
+    const NeesBand band = nees_band(kSeeds, dof);
     EXPECT_TRUE(band.holds(value)) << value << " of " << dof << " is not in " << band.low << " .. " << band.high;
   }
 }

@@ -37,5 +37,18 @@ TEST(NoiseFree, coasting_is_exact) {
   EXPECT_LT(worst_rad, 1e-3);
 }
 
+/// The light goes out in a turn of 0.5 rad/s. A yaw rate that is held until the next sample would come half an interval
+/// too late, which is 5 mrad when the turn has ended.
+TEST(NoiseFree, a_turn_on_the_wheels_alone_ends_where_it_should) {
+  FusionRun run;
+  run.use_imu = false;
+  run.optical = [](double t_s) { return t_s < 10; };
+  const TruckDrive drive(round_the_hall(), 3);
+  TruckSensors sensors(drive, SensorErrors::none(), 4);
+  PoseFilter filter{PoseFilterParams{}};
+  for (const Sample& s : run_filter(filter, drive, sensors, run))
+    if (s.t_s > 12.2 && s.t_s < 15) EXPECT_LT(std::abs(s.error[5]), 0.002) << s.t_s;
+}
+
 }  // namespace
 }  // namespace lodestar::test

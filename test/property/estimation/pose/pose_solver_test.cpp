@@ -9,6 +9,14 @@
 namespace lodestar {
 namespace {
 
+test::Scene noisy_scene(test::Random& random, int beacons) {
+  const test::SceneNoise noise{0.001, 0.01, 0.005, 0.002};
+  test::Scene scene = test::random_scene(random, noise);
+  for (const Eigen::Vector3d& beacon : test::random_ceiling(random, scene, beacons, 1))
+    scene.see(beacon, noise, random);
+  return scene;
+}
+
 TEST(PoseSolverProperty, NoiseFreeIsExactForAnyMountTiltAndLayout) {
   int solved = 0;
   for (int trial = 0; trial < 600; ++trial) {
@@ -35,9 +43,7 @@ TEST(PoseSolverProperty, NoiseFreeIsExactForAnyMountTiltAndLayout) {
 TEST(PoseSolverProperty, OrderOfTheBearingsDoesNotMatter) {
   for (int trial = 0; trial < 50; ++trial) {
     test::Random random(trial);
-    const test::SceneNoise noise{0.001, 0.01, 0.005, 0.002};
-    test::Scene scene = test::random_scene(random, noise);
-    for (const Eigen::Vector3d& beacon : test::random_ceiling(random, scene, 5, 1)) scene.see(beacon, noise, random);
+    test::Scene scene = noisy_scene(random, 5);
     const auto forwards = PoseSolver({}).solve(scene.seen, scene.tilt, scene.T_base_camera);
     std::reverse(scene.seen.bearings.begin(), scene.seen.bearings.end());
     const auto backwards = PoseSolver({}).solve(scene.seen, scene.tilt, scene.T_base_camera);
@@ -50,9 +56,7 @@ TEST(PoseSolverProperty, OrderOfTheBearingsDoesNotMatter) {
 TEST(BearingFitProperty, EndsWithinAThirtiethOfASigmaOfTheMinimumFromAnyNearStart) {
   for (int trial = 0; trial < 200; ++trial) {
     test::Random random(trial);
-    const test::SceneNoise noise{0.001, 0.01, 0.005, 0.002};
-    test::Scene scene = test::random_scene(random, noise);
-    for (const Eigen::Vector3d& beacon : test::random_ceiling(random, scene, 6, 1)) scene.see(beacon, noise, random);
+    test::Scene scene = noisy_scene(random, 6);
     const BearingFit model(scene.seen.bearings,
                            rotation({scene.tilt.roll_rad, scene.tilt.pitch_rad, 0}) * scene.T_base_camera.linear(),
                            0.005);
