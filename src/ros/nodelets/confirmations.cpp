@@ -3,7 +3,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -11,7 +10,6 @@
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ros/convert/announcement.hpp"
-#include "lodestar/ros/nodelets/memory_file.hpp"
 
 namespace lodestar {
 namespace {
@@ -41,7 +39,7 @@ ToneSet tones_in(const YAML::Node& node) {
 }  // namespace
 
 Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory)
-    : site_(site), memory_(std::move(memory)) {
+    : site_(site), file_(std::move(memory)) {
   const auto tell = [this](const ros::SingleSubscriberPublisher& newcomer) {
     for (const auto& [id, announcement] : confirmed_)
       newcomer.publish(announcement_message(announcement, site_.frame_id));
@@ -56,9 +54,9 @@ const Beacon* Confirmations::in_site(BeaconId id) const {
 }
 
 /// Those that still stand: the site file has not been brought up to date since.
-std::map<BeaconId, Announcement> Confirmations::read() const {
+std::map<BeaconId, Announcement> Confirmations::read(const std::string& text) const {
   std::map<BeaconId, Announcement> out;
-  for (const YAML::Node& entry : YAML::LoadFile(memory_)) {
+  for (const YAML::Node& entry : YAML::Load(text)) {
     Announcement a;
     a.beacon = BeaconId{entry["id"].as<std::uint32_t>()};
     a.position_map = position_in(entry["position_m"]);
@@ -74,13 +72,11 @@ std::map<BeaconId, Announcement> Confirmations::read() const {
 }
 
 void Confirmations::load_into(BeaconTable& table) {
-  std::error_code none;
-  if (memory_.empty() || !std::filesystem::exists(memory_, none)) return;
-  try {
-    confirmed_ = read();
-  } catch (const std::exception&) {
-    fault_ = set_aside(memory_, "confirmed beacons have to be confirmed anew");
-  }
+  const auto understand = [this](const std::string& text) {
+    confirmed_ = read(text);
+    return true;
+  };
+  file_.load(understand, "confirmed beacons have to be confirmed anew");
   for (const auto& [id, announcement] : confirmed_) table.confirm(announcement);
 }
 
@@ -96,7 +92,7 @@ void Confirmations::forget(BeaconId id) {
 }
 
 void Confirmations::save() {
-  if (memory_.empty()) return;
+  if (!file_.kept()) return;
   std::ostringstream text;
   text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n"
        << std::setprecision(12);
@@ -110,7 +106,7 @@ void Confirmations::save() {
     write(text, in_site(id)->position_map);
     text << "}\n";
   }
-  fault_ = write_memory(memory_, text.str());
+  file_.save(text.str());
 }
 
 }  // namespace lodestar

@@ -7,6 +7,7 @@
 
 #include "lodestar/base/measurement/announcement.hpp"
 #include "lodestar/base/site/site.hpp"
+#include "lodestar/ros/nodelets/memory_file.hpp"
 #include "lodestar/sensing/irlink/beacon_table.hpp"
 
 namespace lodestar {
@@ -19,22 +20,21 @@ class Confirmations {
   /// @param memory path of that file; empty: none
   Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory);
 
-  /// No file is no fault; one that cannot be understood is set aside as `<path>.broken`.
   void load_into(BeaconTable& table);
   void add(const Announcement& announcement);
   /// The beacon contradicts again what was confirmed.
   void forget(BeaconId id);
 
   /// What went wrong last with the file; empty: nothing.
-  const std::string& fault() const { return fault_; }
+  const std::string& fault() const { return file_.fault(); }
 
  private:
   const Beacon* in_site(BeaconId id) const;
-  std::map<BeaconId, Announcement> read() const;
+  std::map<BeaconId, Announcement> read(const std::string& text) const;
   void save();
 
   const Site& site_;
-  std::string memory_, fault_;
+  MemoryFile file_;
   std::map<BeaconId, Announcement> confirmed_;
   ros::Publisher publisher_;
 };
