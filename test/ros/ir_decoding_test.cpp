@@ -1,6 +1,4 @@
 #include <gtest/gtest.h>
-#include <nodelet/NodeletLoad.h>
-#include <nodelet/NodeletUnload.h>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ConfirmBeacon.h"
@@ -14,6 +12,7 @@
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/nodelets.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -22,6 +21,7 @@ using namespace lodestar;
 using namespace lodestar::test;
 
 const char* const kNode = "ir_decoding";
+const char* const kType = "lodestar/IrDecodingNodelet";
 
 class IrDecoding : public testing::Test {
  protected:
@@ -31,7 +31,7 @@ class IrDecoding : public testing::Test {
     site_ = *loaded;
     ros::param::set("/ir_decoding/memory", folder_ / "confirmed.yaml");
     ros::param::set("/ir_decoding/site", ros::param::param<std::string>("/site", ""));
-    load_node();
+    ASSERT_TRUE(load_nodelet(kNode, kType));
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
     ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
@@ -56,18 +56,6 @@ class IrDecoding : public testing::Test {
     frame.octets = encode_ir_frame(a, site_.link);
     frame.levels = {0.5f};
     player_.publish("/ir/frames", ir_frame_message(frame, "ir_array"));
-  }
-  static void load_node() {
-    nodelet::NodeletLoad load;
-    load.request.name = "/ir_decoding";
-    load.request.type = "lodestar/IrDecodingNodelet";
-    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30)));
-    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load));
-  }
-  static void unload_node() {
-    nodelet::NodeletUnload unload;
-    unload.request.name = "/ir_decoding";
-    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
   }
   bool dropped(const std::string& reason, long at_least) {
     return wait_for([&] { return diagnostics_.count(kNode, "dropped: " + reason) >= at_least; });
@@ -172,8 +160,8 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
 
   // Its restart forgets nothing of that, and whoever listens anew is told.
-  unload_node();
-  load_node();
+  ASSERT_TRUE(unload_nodelet(kNode));
+  ASSERT_TRUE(load_nodelet(kNode, kType));
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
   EXPECT_EQ(confirmed_.last().beacon_id, moved.beacon.value);
   EXPECT_NEAR(confirmed_.last().position.x, moved.position_map.x(), 1e-9);
