@@ -1,4 +1,8 @@
 #include <gtest/gtest.h>
+#include <std_msgs/UInt32MultiArray.h>
+
+#include <fstream>
+#include <iterator>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ConfirmBeacon.h"
@@ -22,6 +26,11 @@ using namespace lodestar::test;
 
 const char* const kNode = "ir_decoding";
 const char* const kType = "lodestar/IrDecodingNodelet";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 class IrDecoding : public testing::Test {
  protected:
@@ -68,6 +77,7 @@ class IrDecoding : public testing::Test {
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
   Inbox<BeaconAnnouncement> conflicts_{nh_, "/beacons/conflicts"};
   Inbox<BeaconAnnouncement> confirmed_{nh_, "/beacons/confirmed"};
+  ros::Publisher distrusted_ = nh_.advertise<std_msgs::UInt32MultiArray>("/beacons/distrusted", 10);
   ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 10);
   Diagnostics diagnostics_{nh_};
 };
@@ -171,6 +181,20 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
     if (entry.beacon_id != moved.beacon.value) continue;
     EXPECT_NEAR(entry.position.x, moved.position_map.x(), 1e-9);
   }
+
+  // The filter finds it out again: it is no longer confirmed, and whoever listens anew is not told.
+  std_msgs::UInt32MultiArray distrusted;
+  distrusted.data = {moved.beacon.value};
+  const auto kept = [&] { return text_of(folder_ / "confirmed.yaml").find("id:") != std::string::npos; };
+  EXPECT_TRUE(kept());
+  ASSERT_TRUE(wait_for([&] { return distrusted_.getNumSubscribers() > 0; }));
+  distrusted_.publish(distrusted);
+  EXPECT_TRUE(wait_for([&] { return !kept(); }));
+  // Confirmed once more while the filter does not run: what it tells when it starts was known before.
+  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  distrusted_.publish(distrusted);
+  EXPECT_FALSE(wait_for([&] { return !kept(); }, 0.5));
+
   ASSERT_TRUE(wait_for([&] { return announcements_.connected(); }));
   player_.play(0.9);  // one superframe to hear the time of the site
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "accepted") >= 3; }));

@@ -1,5 +1,6 @@
 #include "lodestar/ros/nodelets/confirmations.hpp"
 
+#include <std_msgs/UInt32MultiArray.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -45,6 +46,16 @@ Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string 
       newcomer.publish(announcement_message(announcement, site_.frame_id));
   };
   publisher_ = nh.advertise<BeaconAnnouncement>("beacons/confirmed", 200, tell);
+  distrusted_input_ = nh.subscribe<std_msgs::UInt32MultiArray>("beacons/distrusted", 10, [this](const auto& message) {
+    forget_new({message->data.begin(), message->data.end()});
+  });
+}
+
+/// Who stood there before may have been confirmed since, while the filter did not run.
+void Confirmations::forget_new(const std::set<std::uint32_t>& distrusted) {
+  for (const std::uint32_t id : distrusted)
+    if (distrusted_.count(id) == 0) forget(BeaconId{id});
+  distrusted_ = distrusted;
 }
 
 const Beacon* Confirmations::in_site(BeaconId id) const {

@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "lodestar/base/measurement/announcement.hpp"
@@ -14,7 +15,8 @@ namespace lodestar {
 
 /// Beacons of the site file that somebody has confirmed where they say that they hang, and the topic that tells it,
 /// `beacons/confirmed`: each node that starts later is told then. Kept in a file, they outlive this node too, each
-/// until the site file is changed for it.
+/// until the site file is changed for it. Whom the filter finds out afterwards, by `beacons/distrusted`, is no longer
+/// one of them.
 class Confirmations {
  public:
   /// @param memory path of that file; empty: none
@@ -30,13 +32,16 @@ class Confirmations {
 
  private:
   const Beacon* in_site(BeaconId id) const;
+  void forget_new(const std::set<std::uint32_t>& distrusted);
   std::map<BeaconId, Announcement> read(const std::string& text) const;
   void save();
 
   const Site& site_;
   MemoryFile file_;
   std::map<BeaconId, Announcement> confirmed_;
+  std::set<std::uint32_t> distrusted_;  ///< those of the last message
   ros::Publisher publisher_;
+  ros::Subscriber distrusted_input_;
 };
 
 }  // namespace lodestar
