@@ -44,7 +44,7 @@ std::set<BeaconId> astray(const Sightings& sightings, const std::vector<Beacon>&
 
 bool BeaconWatch::due(Stamp stamp) const { return !last_ || seconds(stamp - *last_) >= kPeriod_s; }
 
-void BeaconWatch::add(Stamp stamp, const std::vector<BeaconCheck>& checks, const std::set<BeaconId>& astray) {
+bool BeaconWatch::add(Stamp stamp, const std::vector<BeaconCheck>& checks, const std::set<BeaconId>& astray) {
   const double elapsed_s = last_ ? std::clamp(seconds(stamp - *last_), 0.0, kLongestPeriod_s) : 0;
   last_ = stamp;
   std::set<BeaconId> liars = astray, others;
@@ -52,15 +52,17 @@ void BeaconWatch::add(Stamp stamp, const std::vector<BeaconCheck>& checks, const
     if (disagrees(check)) liars.insert(check.beacon);
   for (const BeaconCheck& check : checks)
     if (liars.count(check.beacon) == 0) others.insert(check.beacon);
-  if (others.size() < 2 || others.size() <= liars.size()) return;
-  for (const BeaconId id : liars) count(id, elapsed_s);
+  if (others.size() < 2 || others.size() <= liars.size()) return false;
+  bool one_more = false;
   for (const BeaconId id : others) count(id, -elapsed_s);
+  for (const BeaconId id : liars) one_more |= count(id, elapsed_s);
+  return one_more;
 }
 
-void BeaconWatch::count(BeaconId id, double seconds) {
+bool BeaconWatch::count(BeaconId id, double seconds) {
   double& sum_s = disagreed_s_[id];
   sum_s = std::max(0.0, sum_s + seconds);
-  if (sum_s >= kDisagree_s) distrusted_.insert(id);
+  return sum_s >= kDisagree_s && distrusted_.insert(id).second;
 }
 
 std::vector<Beacon> BeaconWatch::trusted(const std::vector<Beacon>& beacons) const {

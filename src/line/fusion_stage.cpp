@@ -47,21 +47,22 @@ bool FusionStage::running() const {
   return filter_.mode() == FilterMode::kTracking || filter_.mode() == FilterMode::kCoasting;
 }
 
-void FusionStage::add_sightings(const Sightings& sightings) {
+bool FusionStage::add_sightings(const Sightings& sightings) {
   sightings_stamp_ = sightings.stamp;
-  if (!use_sightings_ || !camera_.model) return;
+  if (!use_sightings_ || !camera_.model) return false;
   if (!running()) {
     if (auto found = places_.add_sightings(sightings)) filter_ = std::move(*found);
-    return;
+    return false;
   }
   const BeaconBearings named = bearings(sightings, *camera_.model, trusted_, calibration_sigma_px_);
   if (!named.bearings.empty()) filter_.add_bearings(named);
-  if (!watch_.due(sightings.stamp)) return;
-  const std::size_t distrusted = watch_.distrusted().size();
+  if (!watch_.due(sightings.stamp)) return false;
   const auto estimate = filter_.estimate_at(sightings.stamp);
-  if (!estimate) return;
-  watch_.add(sightings.stamp, filter_.beacon_checks(), astray(sightings, trusted_, camera_, estimate->T_map_base));
-  if (watch_.distrusted().size() != distrusted) pick_trusted();
+  if (!estimate) return false;
+  const auto lost = astray(sightings, trusted_, camera_, estimate->T_map_base);
+  const bool one_more = watch_.add(sightings.stamp, filter_.beacon_checks(), lost);
+  if (one_more) pick_trusted();
+  return one_more;
 }
 
 void FusionStage::distrust(const std::set<BeaconId>& ids) {

@@ -100,9 +100,7 @@ Result<LocalizationLine::Outcome, FrameDrop> LocalizationLine::process(const Ima
 
   Outcome outcome;
   outcome.sightings = std::move(sightings).value();
-  const std::size_t distrusted = fusion_.distrusted().size();
-  fusion_.add_sightings(outcome.sightings);
-  if (fusion_.distrusted().size() != distrusted) pose_.set_beacons(fusion_.trusted());
+  if (fusion_.add_sightings(outcome.sightings)) pose_.set_beacons(fusion_.trusted());
   if (const auto fix = pose_.process(outcome.sightings, arrivals)) {
     outcome.fix = *fix;
     fusion_.add_fix(*fix);

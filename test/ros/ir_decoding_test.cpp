@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
-#include <nodelet/NodeletLoad.h>
-#include <nodelet/NodeletUnload.h>
+#include <std_msgs/UInt32MultiArray.h>
+
+#include <fstream>
+#include <iterator>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ConfirmBeacon.h"
@@ -14,6 +16,7 @@
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/nodelets.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -22,6 +25,12 @@ using namespace lodestar;
 using namespace lodestar::test;
 
 const char* const kNode = "ir_decoding";
+const char* const kType = "lodestar/IrDecodingNodelet";
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 class IrDecoding : public testing::Test {
  protected:
@@ -31,7 +40,7 @@ class IrDecoding : public testing::Test {
     site_ = *loaded;
     ros::param::set("/ir_decoding/memory", folder_ / "confirmed.yaml");
     ros::param::set("/ir_decoding/site", ros::param::param<std::string>("/site", ""));
-    load_node();
+    ASSERT_TRUE(load_nodelet(kNode, kType));
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
     ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
@@ -57,18 +66,6 @@ class IrDecoding : public testing::Test {
     frame.levels = {0.5f};
     player_.publish("/ir/frames", ir_frame_message(frame, "ir_array"));
   }
-  static void load_node() {
-    nodelet::NodeletLoad load;
-    load.request.name = "/ir_decoding";
-    load.request.type = "lodestar/IrDecodingNodelet";
-    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30)));
-    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load));
-  }
-  static void unload_node() {
-    nodelet::NodeletUnload unload;
-    unload.request.name = "/ir_decoding";
-    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
-  }
   bool dropped(const std::string& reason, long at_least) {
     return wait_for([&] { return diagnostics_.count(kNode, "dropped: " + reason) >= at_least; });
   }
@@ -80,6 +77,7 @@ class IrDecoding : public testing::Test {
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
   Inbox<BeaconAnnouncement> conflicts_{nh_, "/beacons/conflicts"};
   Inbox<BeaconAnnouncement> confirmed_{nh_, "/beacons/confirmed"};
+  ros::Publisher distrusted_ = nh_.advertise<std_msgs::UInt32MultiArray>("/beacons/distrusted", 10);
   ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 10);
   Diagnostics diagnostics_{nh_};
 };
@@ -172,8 +170,8 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
 
   // Its restart forgets nothing of that, and whoever listens anew is told.
-  unload_node();
-  load_node();
+  ASSERT_TRUE(unload_nodelet(kNode));
+  ASSERT_TRUE(load_nodelet(kNode, kType));
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
   EXPECT_EQ(confirmed_.last().beacon_id, moved.beacon.value);
   EXPECT_NEAR(confirmed_.last().position.x, moved.position_map.x(), 1e-9);
@@ -183,6 +181,20 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
     if (entry.beacon_id != moved.beacon.value) continue;
     EXPECT_NEAR(entry.position.x, moved.position_map.x(), 1e-9);
   }
+
+  // The filter finds it out again: it is no longer confirmed, and whoever listens anew is not told.
+  std_msgs::UInt32MultiArray distrusted;
+  distrusted.data = {moved.beacon.value};
+  const auto kept = [&] { return text_of(folder_ / "confirmed.yaml").find("id:") != std::string::npos; };
+  EXPECT_TRUE(kept());
+  ASSERT_TRUE(wait_for([&] { return distrusted_.getNumSubscribers() > 0; }));
+  distrusted_.publish(distrusted);
+  EXPECT_TRUE(wait_for([&] { return !kept(); }));
+  // Confirmed once more while the filter does not run: what it tells when it starts was known before.
+  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  distrusted_.publish(distrusted);
+  EXPECT_FALSE(wait_for([&] { return !kept(); }, 0.5));
+
   ASSERT_TRUE(wait_for([&] { return announcements_.connected(); }));
   player_.play(0.9);  // one superframe to hear the time of the site
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "accepted") >= 3; }));

@@ -2,8 +2,6 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
-#include <nodelet/NodeletLoad.h>
-#include <nodelet/NodeletUnload.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
@@ -17,6 +15,7 @@
 #include "lodestar/sensing/irlink/ir_frame_decoder.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/nodelets.hpp"
 #include "ros/support/truth.hpp"
 #include "ros/support/waiting.hpp"
 
@@ -92,19 +91,16 @@ TEST_F(Line, LocalizesOnABagAndOutlivesBadInputRestartsAndTheBagsEnd) {
   EXPECT_TRUE(localized(20));
 
   // Any one node may be restarted.
-  for (const std::string node : {"pose_fusion", "beacon_detection"}) {
-    nodelet::NodeletUnload unload;
-    unload.request.name = "/" + node;
-    ASSERT_TRUE(ros::service::call("/lodestar_manager/unload_nodelet", unload)) << node;
-    nodelet::NodeletLoad load;
-    load.request.name = "/" + node;
-    load.request.type = node == "pose_fusion" ? "lodestar/PoseFusionNodelet" : "lodestar/BeaconDetectionNodelet";
+  const std::string manager = "lodestar_manager";
+  for (const auto& [node, type] : {std::pair("pose_fusion", "lodestar/PoseFusionNodelet"),
+                                   std::pair("beacon_detection", "lodestar/BeaconDetectionNodelet")}) {
+    ASSERT_TRUE(unload_nodelet(node, manager)) << node;
     // Not with a parameter that it does not know ...
-    ros::param::set("/" + node + "/no_such_thing", 1);
-    EXPECT_FALSE(ros::service::call("/lodestar_manager/load_nodelet", load) && load.response.success) << node;
-    ros::param::del("/" + node + "/no_such_thing");
-    ASSERT_TRUE(ros::service::call("/lodestar_manager/load_nodelet", load)) << node;
-    EXPECT_TRUE(load.response.success);
+    const std::string unknown = std::string("/") + node + "/no_such_thing";
+    ros::param::set(unknown, 1);
+    EXPECT_FALSE(load_nodelet(node, type, manager)) << node;
+    ros::param::del(unknown);
+    ASSERT_TRUE(load_nodelet(node, type, manager)) << node;
     EXPECT_TRUE(localized(20)) << node;
   }
 

@@ -1,8 +1,6 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
-#include <nodelet/NodeletLoad.h>
-#include <nodelet/NodeletUnload.h>
 #include <std_msgs/UInt32MultiArray.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
@@ -21,6 +19,7 @@
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/nodelets.hpp"
 #include "ros/support/truth.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -30,13 +29,14 @@ using namespace lodestar;
 using namespace lodestar::test;
 
 const char* const kNode = "pose_fusion";
+const char* const kType = "lodestar/PoseFusionNodelet";
 
 class PoseFusion : public testing::Test {
  protected:
   void SetUp() override {
     ros::param::set("/pose_fusion/memory", memory_);
     std::ofstream(memory_) << "[13]";
-    load_node();
+    ASSERT_TRUE(load_nodelet(kNode, kType));
     player_.answered_by([this] { return sightings_.size(); });
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
@@ -48,18 +48,6 @@ class PoseFusion : public testing::Test {
     return wait_for([&] { return diagnostics_.count(kNode, std::string("dropped: ") + reason) >= at_least; });
   }
 
-  static void load_node() {
-    nodelet::NodeletLoad load;
-    load.request.name = "/pose_fusion";
-    load.request.type = "lodestar/PoseFusionNodelet";
-    ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30)));
-    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load));
-  }
-  static void unload_node() {
-    nodelet::NodeletUnload unload;
-    unload.request.name = "/pose_fusion";
-    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload));
-  }
   bool left_out(const std::string& ids) {
     return wait_for([&] {
       return diagnostics_.heard(kNode) && diagnostics_.value(kNode, "left out until confirmed") == ids &&
@@ -88,9 +76,9 @@ class PoseFusion : public testing::Test {
 TEST_F(PoseFusion, FollowsTheTruthAndOutlivesBadInput) {
   // A beacon that was left out before the node began is named, also after one more start, until it is confirmed.
   EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
-  unload_node();
+  ASSERT_TRUE(unload_nodelet(kNode));
   diagnostics_.forget(kNode);
-  load_node();
+  ASSERT_TRUE(load_nodelet(kNode, kType));
   EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
   ASSERT_TRUE(wait_for([&] { return !distrusted_.empty() && distrusted_.last().data.size() == 1; }));
   EXPECT_EQ(distrusted_.last().data[0], 13u);

@@ -30,7 +30,8 @@ class BeaconWatch {
   /// The filter's word on the beacons that it sees, about once a second. Without two others that agree, and more that
   /// agree than do not, it says nothing: it may be the pose that is wrong.
   /// @param astray beacons that cannot be among those that agree
-  void add(Stamp stamp, const std::vector<BeaconCheck>& checks, const std::set<BeaconId>& astray = {});
+  /// @return whether one more is distrusted now
+  bool add(Stamp stamp, const std::vector<BeaconCheck>& checks, const std::set<BeaconId>& astray = {});
   bool due(Stamp stamp) const;
 
   const std::set<BeaconId>& distrusted() const { return distrusted_; }
@@ -43,7 +44,7 @@ class BeaconWatch {
   void reset_time() { last_.reset(); }
 
  private:
-  void count(BeaconId id, double seconds);
+  bool count(BeaconId id, double seconds);
 
   std::optional<Stamp> last_;
   std::map<BeaconId, double> disagreed_s_;

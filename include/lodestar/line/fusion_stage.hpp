@@ -30,7 +30,8 @@ class FusionStage {
 
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
-  void add_sightings(const Sightings& sightings);
+  /// Whether one more beacon is distrusted since.
+  bool add_sightings(const Sightings& sightings);
   void add_fix(const Fix& fix);
 
   /// Beacons that disagree with the rest for long: left out until somebody confirms them.

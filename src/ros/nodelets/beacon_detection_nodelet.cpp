@@ -133,10 +133,10 @@ void BeaconDetectionNodelet::report(Health::Status& status) {
   if (!stage_) return;
   report_drops(stage_->drops(), status);
   status.add("names contradicted by their direction", stage_->contradicted());
-  if (stage_->contradicted() > contradicted_ && last_named_ == 0)
+  if (stage_->contradicted() > contradicted_)
     status.mergeSummary(Health::Status::WARN,
-                        "no name: announcements come from elsewhere than their beacons are seen; mirror images, or "
-                        "somebody outshines the beacons");
+                        "names withheld: announcements come from elsewhere than their beacons are seen; mirror images, "
+                        "or somebody outshines the beacons");
   contradicted_ = stage_->contradicted();
 }
 

@@ -1,9 +1,9 @@
 #include "lodestar/ros/nodelets/confirmations.hpp"
 
+#include <std_msgs/UInt32MultiArray.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -11,7 +11,6 @@
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ros/convert/announcement.hpp"
-#include "lodestar/ros/nodelets/memory_file.hpp"
 
 namespace lodestar {
 namespace {
@@ -41,12 +40,22 @@ ToneSet tones_in(const YAML::Node& node) {
 }  // namespace
 
 Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory)
-    : site_(site), memory_(std::move(memory)) {
+    : site_(site), file_(std::move(memory)) {
   const auto tell = [this](const ros::SingleSubscriberPublisher& newcomer) {
     for (const auto& [id, announcement] : confirmed_)
       newcomer.publish(announcement_message(announcement, site_.frame_id));
   };
   publisher_ = nh.advertise<BeaconAnnouncement>("beacons/confirmed", 200, tell);
+  distrusted_input_ = nh.subscribe<std_msgs::UInt32MultiArray>("beacons/distrusted", 10, [this](const auto& message) {
+    forget_new({message->data.begin(), message->data.end()});
+  });
+}
+
+/// Who stood there before may have been confirmed since, while the filter did not run.
+void Confirmations::forget_new(const std::set<std::uint32_t>& distrusted) {
+  for (const std::uint32_t id : distrusted)
+    if (distrusted_.count(id) == 0) forget(BeaconId{id});
+  distrusted_ = distrusted;
 }
 
 const Beacon* Confirmations::in_site(BeaconId id) const {
@@ -56,9 +65,9 @@ const Beacon* Confirmations::in_site(BeaconId id) const {
 }
 
 /// Those that still stand: the site file has not been brought up to date since.
-std::map<BeaconId, Announcement> Confirmations::read() const {
+std::map<BeaconId, Announcement> Confirmations::read(const std::string& text) const {
   std::map<BeaconId, Announcement> out;
-  for (const YAML::Node& entry : YAML::LoadFile(memory_)) {
+  for (const YAML::Node& entry : YAML::Load(text)) {
     Announcement a;
     a.beacon = BeaconId{entry["id"].as<std::uint32_t>()};
     a.position_map = position_in(entry["position_m"]);
@@ -74,13 +83,11 @@ std::map<BeaconId, Announcement> Confirmations::read() const {
 }
 
 void Confirmations::load_into(BeaconTable& table) {
-  std::error_code none;
-  if (memory_.empty() || !std::filesystem::exists(memory_, none)) return;
-  try {
-    confirmed_ = read();
-  } catch (const std::exception&) {
-    fault_ = set_aside(memory_, "confirmed beacons have to be confirmed anew");
-  }
+  const auto understand = [this](const std::string& text) {
+    confirmed_ = read(text);
+    return true;
+  };
+  file_.load(understand, "confirmed beacons have to be confirmed anew");
   for (const auto& [id, announcement] : confirmed_) table.confirm(announcement);
 }
 
@@ -96,7 +103,7 @@ void Confirmations::forget(BeaconId id) {
 }
 
 void Confirmations::save() {
-  if (memory_.empty()) return;
+  if (!file_.kept()) return;
   std::ostringstream text;
   text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n"
        << std::setprecision(12);
@@ -110,7 +117,7 @@ void Confirmations::save() {
     write(text, in_site(id)->position_map);
     text << "}\n";
   }
-  fault_ = write_memory(memory_, text.str());
+  file_.save(text.str());
 }
 
 }  // namespace lodestar

@@ -2,16 +2,13 @@
 
 #include <ros/serialization.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "lodestar/PalletMemory.h"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/transform.hpp"
-#include "lodestar/ros/nodelets/memory_file.hpp"
 
 namespace lodestar {
 namespace {
@@ -49,18 +46,16 @@ std::string packed(const PalletMemory& memory) {
   return checksum() + text;
 }
 
+/// Throws when the text is shorter than it says.
 std::optional<PalletMemory> unpacked(std::string text) {
   const std::size_t head = checksum().size();
   if (text.compare(0, head, checksum()) != 0) return std::nullopt;
-  try {
-    PalletMemory memory;
-    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(&text[0]) + head,
-                                       static_cast<std::uint32_t>(text.size() - head));
-    ros::serialization::deserialize(stream, memory);
-    if (stream.getLength() == 0 && memory.carried.size() == memory.seats.size()) return memory;
-  } catch (const std::exception&) {  // shorter than it says
-  }
-  return std::nullopt;
+  PalletMemory memory;
+  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(&text[0]) + head,
+                                     static_cast<std::uint32_t>(text.size() - head));
+  ros::serialization::deserialize(stream, memory);
+  if (stream.getLength() > 0 || memory.carried.size() != memory.seats.size()) return std::nullopt;
+  return memory;
 }
 
 bool restore(PalletTracker& tracker, const PalletMemory& memory, const std::string& map_frame) {
@@ -84,16 +79,15 @@ bool restore(PalletTracker& tracker, const PalletMemory& memory, const std::stri
 }  // namespace
 
 void PalletFile::load_into(PalletTracker& tracker) {
-  std::error_code none;
-  if (path_.empty() || !std::filesystem::exists(path_, none)) return;
-  std::ifstream stream(path_, std::ios::binary);
-  const auto memory = unpacked(std::string(std::istreambuf_iterator<char>(stream), {}));
-  if (memory && restore(tracker, *memory, map_frame_)) return;
-  fault_ = set_aside(path_, "no pallet is known");
+  const auto understand = [&](const std::string& octets) {
+    const auto memory = unpacked(octets);
+    return memory && restore(tracker, *memory, map_frame_);
+  };
+  file_.load(understand, "no pallet is known");
 }
 
 void PalletFile::save(const PalletTracker& tracker) {
-  if (path_.empty()) return;
+  if (!file_.kept()) return;
   PalletMemory memory;
   for (const PalletChange& change : tracker.ledger().kept())
     memory.events.push_back(pallet_event_message(change, map_frame_));
@@ -101,7 +95,7 @@ void PalletFile::save(const PalletTracker& tracker) {
     memory.carried.push_back(carried.id);
     memory.seats.push_back(seat_message(carried.seat));
   }
-  fault_ = write_memory(path_, packed(memory));
+  file_.save(packed(memory));
 }
 
 }  // namespace lodestar

@@ -2,7 +2,6 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <nav_msgs/Odometry.h>
-#include <std_msgs/UInt32MultiArray.h>
 
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
@@ -18,12 +17,21 @@
 
 namespace lodestar {
 
+using diagnostic_msgs::DiagnosticStatus;
+
 namespace {
 
 // A little early counts as due: stamps jitter, and every second sample must not be lost to that.
 bool due(const std::optional<Stamp>& last, Stamp now, double rate_hz) {
   return !last || now < *last || seconds(now - *last) > 0.75 / rate_hz;
 }
+
+std::string listed(const std::set<BeaconId>& ids) {
+  std::string text;
+  for (const BeaconId id : ids) text += (text.empty() ? "" : " ") + std::to_string(id.value);
+  return text;
+}
+
 }  // namespace
 
 void PoseFusionNodelet::onInit() {
@@ -31,6 +39,7 @@ void PoseFusionNodelet::onInit() {
   ParamReader reader(getPrivateNodeHandle());
   read_params(reader);
   edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "pose fusion", [this] { reset(); });
+  distrusted_ = std::make_unique<Distrusted>(nh, memory_);
   make_stage();
 
   Health& health = edge_->health();
@@ -42,7 +51,6 @@ void PoseFusionNodelet::onInit() {
   pose_ = nh.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 50);
   odometry_ = nh.advertise<nav_msgs::Odometry>("odometry/filtered", 50);
   integrity_ = nh.advertise<PoseIntegrity>("pose/integrity", 50);
-  distrusted_ = nh.advertise<std_msgs::UInt32MultiArray>("beacons/distrusted", 1, true);
   if (transform_ != Transform::kNone) broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   camera_ = std::make_unique<CameraInput>(nh, edge_->mounts(), health, edge_->vehicle().T_base_camera);
   beacons_ = std::make_unique<BeaconInput>(
@@ -60,14 +68,13 @@ void PoseFusionNodelet::onInit() {
   confirmed_ =
       nh.subscribe<BeaconAnnouncement>("beacons/confirmed", 10, [this](const BeaconAnnouncementConstPtr& message) {
         stage_->confirm(BeaconId{message->beacon_id});
-        keep_distrusted();
+        distrusted_->set(stage_->distrusted());
       });
-  publish_distrusted();
 }
 
 void PoseFusionNodelet::read_params(ParamReader& params) {
   publish_rate_hz_ = params.number("publish_rate_hz", 50, {1, 1000});
-  memory_ = std::make_unique<DistrustMemory>(params.text("memory", ""));
+  memory_ = params.text("memory", "");
   odom_frame_ = params.text("odom_frame", "odom");
   use_sightings_ = params.flag("use_sightings", true);
   slew_m_s_ = params.number("slew_m_s", slew_m_s_, {0, 100});
@@ -86,7 +93,7 @@ void PoseFusionNodelet::make_stage() {
   params.filter.camera_time_offset_sigma_s = camera_time_offset_sigma_s_;
   params.use_sightings = use_sightings_;
   stage_ = std::make_unique<FusionStage>(params);
-  stage_->distrust(memory_->load());
+  stage_->distrust(distrusted_->load());
   slew_ = std::make_unique<PoseSlew>(slew_m_s_, slew_rad_s_);
 }
 
@@ -99,22 +106,8 @@ void PoseFusionNodelet::take_sightings(const BeaconSightingArrayConstPtr& messag
   if (camera == nullptr) return;
   if (camera_->revision() != camera_revision_) stage_->set_camera(*camera);
   camera_revision_ = camera_->revision();
-  const std::size_t distrusted = stage_->distrusted().size();
-  stage_->add_sightings(*sightings);
-  if (stage_->distrusted().size() != distrusted) keep_distrusted();
+  if (stage_->add_sightings(*sightings)) distrusted_->set(stage_->distrusted());
   publish_if_due();
-}
-
-void PoseFusionNodelet::keep_distrusted() {
-  memory_->save(stage_->distrusted());
-  publish_distrusted();
-}
-
-/// All of them at once, latched: a node that starts later knows them too.
-void PoseFusionNodelet::publish_distrusted() {
-  std_msgs::UInt32MultiArray message;
-  for (const BeaconId id : stage_->distrusted()) message.data.push_back(id.value);
-  distrusted_.publish(message);
 }
 
 void PoseFusionNodelet::take_fix(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
@@ -159,7 +152,6 @@ void PoseFusionNodelet::publish_map_odom(const OdometrySample& sample) {
 }
 
 void PoseFusionNodelet::report(Health::Status& status) {
-  using diagnostic_msgs::DiagnosticStatus;
   const FilterMode mode = stage_->filter().mode();
   status.add("mode", name(mode));
   if (mode == FilterMode::kStarting || mode == FilterMode::kCoasting) {
@@ -183,18 +175,15 @@ void PoseFusionNodelet::report(Health::Status& status) {
 /// Beacons that have to be looked after, by id.
 void PoseFusionNodelet::report_liars(Health::Status& status) {
   constexpr int kManyGated = 20;
-  std::string ids;
+  std::set<BeaconId> liars;
   for (const BeaconCheck& check : stage_->filter().beacon_checks())
-    if (check.excluded || check.gated >= kManyGated)
-      ids += (ids.empty() ? "" : " ") + std::to_string(check.beacon.value);
-  status.add("beacons that lie", ids.empty() ? "none" : ids);
-  if (!ids.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "beacons that lie: " + ids);
-  if (!memory_->fault().empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, memory_->fault());
-  std::string left_out;
-  for (const BeaconId id : stage_->distrusted()) left_out += (left_out.empty() ? "" : " ") + std::to_string(id.value);
+    if (check.excluded || check.gated >= kManyGated) liars.insert(check.beacon);
+  status.add("beacons that lie", liars.empty() ? "none" : listed(liars));
+  if (!liars.empty()) status.mergeSummary(DiagnosticStatus::WARN, "beacons that lie: " + listed(liars));
+  if (!distrusted_->fault().empty()) status.mergeSummary(DiagnosticStatus::ERROR, distrusted_->fault());
+  const std::string left_out = listed(stage_->distrusted());
   status.add("left out until confirmed", left_out);
-  if (!left_out.empty())
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "left out until confirmed: beacons " + left_out);
+  if (!left_out.empty()) status.mergeSummary(DiagnosticStatus::WARN, "left out until confirmed: beacons " + left_out);
 }
 
 void PoseFusionNodelet::reset() {

@@ -47,7 +47,7 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
   }
   const int corrections = clock_.corrections();
   if (const auto drop = clock_.accept(announcement)) return drop;
-  if (clock_.corrections() != corrections) forgive_site_conflicts();
+  if (clock_.corrections() != corrections) forget_recordings();
 
   Entry& entry = entries_[announcement.beacon];
   const auto drop =
@@ -79,9 +79,16 @@ std::optional<IrDrop> BeaconTable::compare_with_past(Entry& entry, const Announc
   return IrDrop::kConflict;
 }
 
-void BeaconTable::forgive_site_conflicts() {
-  for (auto& [id, entry] : entries_)
-    if (entry.in_site_file) set_conflict(entry, false);
+void BeaconTable::forget_recordings() {
+  for (auto next = entries_.begin(); next != entries_.end();) {
+    const auto known = next++;
+    if (known->second.in_site_file) {
+      set_conflict(known->second, false);
+    } else {
+      entries_.erase(known);
+      ++revision_;
+    }
+  }
 }
 
 void BeaconTable::set_conflict(Entry& entry, bool conflict) {

@@ -20,15 +20,17 @@ struct Drive {
 };
 
 /// @param from_s since the start, when he begins
-Drive drive(Trick trick, double from_s) {
+/// @param listed whether the site file has the beacons; else they are known by their own word
+Drive drive(Trick trick, double from_s, bool listed = true) {
   auto loaded = sim::load_scenario(std::string(LODESTAR_SOURCE_DIR) + "/test/golden/sim/line.yaml");
   EXPECT_TRUE(loaded.ok());
   sim::Scenario scenario = *loaded;
   scenario.ir.bit_error_rate = 0;
   scenario.site.link.key = std::array<std::uint8_t, 16>{7, 7, 7};
   sim::Simulation simulation(scenario);
-  LocalizationLine line = sim::make_line(scenario);
   Stranger stranger(trick, scenario.site);
+  if (!listed) scenario.site.beacons.clear();
+  LocalizationLine line = sim::make_line(scenario);
   Drive out;
   while (const auto event = simulation.next()) {
     if (const auto* frame = std::get_if<RawIrFrame>(&event->data)) {
@@ -100,6 +102,12 @@ TEST_F(StrangerTricks, frames_that_come_from_elsewhere_are_refused_by_their_dire
 
 TEST_F(StrangerTricks, a_recording_that_is_heard_first_is_found_out_with_the_first_true_frame) {
   EXPECT_GT(caught(Trick::kYesterday).total(), 10u);
+}
+
+TEST_F(StrangerTricks, a_recording_moves_no_beacon_that_is_known_by_its_word_alone) {
+  const Drive alone = drive(Trick::kNone, 0, false), with = drive(Trick::kYesterday, 0, false);
+  expect_unmoved(alone, with);
+  EXPECT_EQ(with.estimates.size(), alone.estimates.size());
 }
 
 TEST_F(StrangerTricks, whoever_outshines_the_beacons_is_seen_to_do_so) {

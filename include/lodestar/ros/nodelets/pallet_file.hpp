@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
+#include "lodestar/ros/nodelets/memory_file.hpp"
 
 namespace lodestar {
 
@@ -11,18 +13,18 @@ namespace lodestar {
 class PalletFile {
  public:
   /// @param path empty: nothing is kept
-  PalletFile(std::string path, std::string map_frame) : path_(std::move(path)), map_frame_(std::move(map_frame)) {}
+  PalletFile(std::string path, std::string map_frame) : file_(std::move(path)), map_frame_(std::move(map_frame)) {}
 
-  /// Hands what the file holds to the tracker. No file is no fault; one that cannot be understood is set aside as
-  /// `<path>.broken`.
+  /// Hands what the file holds to the tracker.
   void load_into(PalletTracker& tracker);
   void save(const PalletTracker& tracker);
 
   /// What went wrong last; empty: nothing.
-  const std::string& fault() const { return fault_; }
+  const std::string& fault() const { return file_.fault(); }
 
  private:
-  std::string path_, map_frame_, fault_;
+  MemoryFile file_;
+  std::string map_frame_;
 };
 
 }  // namespace lodestar

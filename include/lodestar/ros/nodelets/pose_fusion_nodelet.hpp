@@ -12,7 +12,7 @@
 #include "lodestar/line/pose_slew.hpp"
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 #include "lodestar/ros/nodelets/camera_input.hpp"
-#include "lodestar/ros/nodelets/distrust_memory.hpp"
+#include "lodestar/ros/nodelets/distrusted.hpp"
 #include "lodestar/ros/nodelets/motion_input.hpp"
 #include "lodestar/ros/nodelets/stage_edge.hpp"
 
@@ -34,20 +34,18 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   void publish_map_odom(const OdometrySample& sample);
   void report(Health::Status& status);
   void report_liars(Health::Status& status);
-  void publish_distrusted();
-  void keep_distrusted();
   void reset();
 
   double publish_rate_hz_ = 50;
   double slew_m_s_ = 0.5, slew_rad_s_ = 0.2;
   double fix_systematic_share_ = 0.9, camera_time_offset_sigma_s_ = 0.001;
-  std::string odom_frame_;
+  std::string odom_frame_, memory_;
   Transform transform_ = Transform::kMapOdom;
   bool use_sightings_ = true;
   std::unique_ptr<StageEdge> edge_;
   std::unique_ptr<FusionStage> stage_;
   std::unique_ptr<PoseSlew> slew_;
-  std::unique_ptr<DistrustMemory> memory_;
+  std::unique_ptr<Distrusted> distrusted_;
   std::unique_ptr<CameraInput> camera_;
   std::unique_ptr<BeaconInput> beacons_;
   std::unique_ptr<MotionInput> motion_;
@@ -56,7 +54,7 @@ class PoseFusionNodelet : public nodelet::Nodelet {
   StreamWatch* pose_watch_ = nullptr;
   int camera_revision_ = 0;
   std::optional<Stamp> published_, transformed_;
-  ros::Publisher pose_, odometry_, integrity_, distrusted_;
+  ros::Publisher pose_, odometry_, integrity_;
   ros::Subscriber sightings_, fix_, confirmed_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
 };

@@ -8,16 +8,27 @@
 namespace lodestar {
 
 /// Tells the operator of frames that no beacon of the site sends: those that were refused for what they say, when, and
-/// from where, and a channel on which most frames are spoilt. A warning stands for ten seconds.
+/// from where, and a channel on which most frames are spoilt: of ten, or of those of ten seconds where one beacon alone
+/// sends fewer. A warning stands for ten seconds.
 class StrangerWatch {
  public:
-  void report(const DropCounts<IrDrop>& drops, std::uint64_t accepted, Health::Status& status);
+  /// @param now when it begins to listen
+  explicit StrangerWatch(const ros::WallTime& now = ros::WallTime::now()) : judged_(now) {}
+
+  void report(const DropCounts<IrDrop>& drops, std::uint64_t accepted, Health::Status& status,
+              const ros::WallTime& now = ros::WallTime::now());
 
  private:
-  DropCounts<IrDrop> drops_;  ///< at the last report
-  std::uint64_t accepted_ = 0;
-  ros::WallTime warned_;
-  std::string warning_;
+  struct Warning {
+    std::string text;
+    ros::WallTime since;
+  };
+  bool most_are_spoilt(const DropCounts<IrDrop>& drops, std::uint64_t accepted, const ros::WallTime& now);
+
+  DropCounts<IrDrop> drops_;                 ///< at the last report
+  std::uint64_t accepted_ = 0, spoilt_ = 0;  ///< when the channel was judged last
+  ros::WallTime judged_;
+  Warning strange_, spoilt_channel_;
 };
 
 }  // namespace lodestar

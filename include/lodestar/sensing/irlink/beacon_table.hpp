@@ -22,6 +22,7 @@ namespace lodestar {
 /// - Not in the site file: the first announcement puts the beacon in force where it says, with sigma_m 0.01 when it
 ///   calls itself surveyed and 0.10 when not, and later ones within 3 sigma keep it up to date. One that jumps or
 ///   changes tones is a conflict and takes it out of force; the third in a row that agree with one another is believed.
+///   What a recording may have made of it is forgotten likewise, with the first true frame of any beacon.
 class BeaconTable {
  public:
   static constexpr double kSurveyedSigma_m = 0.01;
@@ -73,7 +74,7 @@ class BeaconTable {
   std::optional<IrDrop> judge(const Announcement& announcement);
   std::optional<IrDrop> compare_with_site(Entry& entry, const Announcement& announcement);
   std::optional<IrDrop> compare_with_past(Entry& entry, const Announcement& announcement);
-  void forgive_site_conflicts();
+  void forget_recordings();
   void set_conflict(Entry& entry, bool conflict);
   void learn(Entry& entry, const Announcement& announcement);
 

@@ -93,6 +93,21 @@ TEST(BeaconTable, a_conflict_that_a_recording_made_goes_with_the_first_true_fram
   EXPECT_FALSE(conflicts_left());
 }
 
+TEST(BeaconTable, without_a_list_a_beacon_that_a_recording_made_goes_with_the_first_true_frame) {
+  Site site;
+  const auto in_force = [&] {
+    BeaconTable table(site);
+    EXPECT_EQ(table.accept(heard(1, 5, 1000, kPosition + Eigen::Vector3d(2, 0, 0))), std::nullopt);
+    table.accept(heard(2, 505, 1000 - 500 * 0.8));
+    return table.beacons();
+  };
+  ASSERT_EQ(in_force().size(), 1u) << "without a key nobody can tell which is the recording";
+  EXPECT_EQ(in_force()[0].id, BeaconId{1});
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  ASSERT_EQ(in_force().size(), 1u);
+  EXPECT_EQ(in_force()[0].id, BeaconId{2});
+}
+
 TEST(BeaconTable, a_beacon_that_was_hung_up_anew_is_used_where_it_says_once_confirmed) {
   const Eigen::Vector3d moved = kPosition + Eigen::Vector3d(0, 2, 0);
   BeaconTable table(site_with_list());
