@@ -199,6 +199,13 @@ TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
 }
 
+TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {
+  camera_->unplug();
+  ASSERT_TRUE(load(FakeGigeCamera::kUri));
+  camera_->plug_in();
+  EXPECT_TRUE(more_images(10));
+}
+
 TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
   ros::param::set("/camera_capture/trigger", "Software");
   set("stale_warn_s", 0.1);
