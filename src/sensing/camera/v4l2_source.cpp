@@ -178,7 +178,8 @@ Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
 
   const bool broken = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.index >= buffers_.size();
   auto frame = broken ? std::nullopt : unpack(buffer);
-  demand(VIDIOC_QBUF, &buffer, "handing back a buffer");
+  v4l2_buffer handed_back = buffer;  // the kernel clears its number and its stamp
+  demand(VIDIOC_QBUF, &handed_back, "handing back a buffer");
   if (!frame) return NoFrame::kIncomplete;
   frame->id = buffer.sequence;
   frame->ticks =

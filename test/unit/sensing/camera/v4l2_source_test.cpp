@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ctime>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
@@ -116,6 +118,8 @@ struct FakeCamera : V4l2Port {
       }
       case VIDIOC_QBUF:
         queue.push_back(as<v4l2_buffer>(argument).index);
+        as<v4l2_buffer>(argument).sequence = 0;  // as the kernel does: the buffer is a new one
+        as<v4l2_buffer>(argument).timestamp = {};
         return 0;
       case VIDIOC_STREAMON:
         streaming = true;
@@ -307,6 +311,38 @@ TEST(V4l2, DevicesThatAreNone) {
   EXPECT_THROW(open_source("v4l2:/dev/no_such_video"), CameraError);
   test::HeapFrames memory;
   EXPECT_THROW(open_source("v4l2:/dev/null")->start({}, memory.allocator()), CameraError);
+}
+
+/// /dev/video*, in order.
+std::set<std::string> video_devices() {
+  std::set<std::string> devices;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev"))
+    if (entry.path().filename().string().rfind("video", 0) == 0) devices.insert(entry.path());
+  return devices;
+}
+
+// Where a machine has a camera: the kernel itself instead of the fake. Test patterns will do (modprobe vivid).
+TEST(V4l2, TheFirstCameraOfThisMachineStreams) {
+  const auto devices = video_devices();
+  if (devices.empty()) GTEST_SKIP() << "this machine has no /dev/video*";
+  test::HeapFrames memory;
+  CameraSettings beyond;
+  beyond.exposure_s = 1e6;
+  EXPECT_THROW(open_source("v4l2:" + *devices.begin())->start(beyond, memory.allocator()), CameraRefusal);
+
+  const auto source = open_source("v4l2:" + *devices.begin());
+  const SourceInfo info = source->start({}, memory.allocator());
+  std::vector<DeviceFrame> frames;
+  for (int tries = 0; frames.size() < 10 && tries < 20; ++tries)
+    if (const auto frame = source->next(std::chrono::seconds(1))) frames.push_back(*frame);
+  ASSERT_EQ(frames.size(), 10u) << info.name;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_TRUE(memory.gave(frames[i].memory.data));
+    EXPECT_LT(std::abs(seconds(Duration(frames[i].heard.ticks) - Duration(frames[i].ticks))), 1);
+    if (i == 0) continue;
+    EXPECT_GT(frames[i].id, frames[i - 1].id);
+    EXPECT_GT(frames[i].ticks, frames[i - 1].ticks);
+  }
 }
 
 }  // namespace
