@@ -67,6 +67,7 @@ void each_file(const std::string& folder, const Look& look) {
   ProgressBar bar("calibrate");
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const cv::Mat pixels = cv::imread(paths[i], cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    if (pixels.empty()) throw UserError(paths[i].string() + ": is no image that can be read.");
     if (pixels.depth() != CV_8U && pixels.depth() != CV_16U)
       throw UserError(paths[i].string() + ": has neither 8 nor 16 bits a pixel.");
     Image image;

@@ -1,24 +1,53 @@
 // The capture nodelet in this very process, so that a subscriber is in its manager; the camera is Aravis' fake GigE
 // Vision camera, or pictures on disk.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <image_transport/image_transport.h>
 #include <nodelet/loader.h>
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
-#include "lodestar/ros/convert/image.hpp"
-#include "lodestar/ros/convert/stamp.hpp"
-#include "lodestar/ros/nodelets/image_pool.hpp"
-#include "lodestar/sensing/camera/open_source.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
 #include "ros/support/waiting.hpp"
 #include "support/camera/fake_gige_camera.hpp"
+
+namespace {
+
+/// Where Aravis is told to write frames.
+class DriverBuffers {
+ public:
+  static void add(const void* data) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    given_.insert(data);
+  }
+  static bool gave(const void* data) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return given_.count(data) > 0;
+  }
+
+ private:
+  inline static std::mutex mutex_;
+  inline static std::set<const void*> given_;
+};
+
+}  // namespace
+
+/// Stands before Aravis' own in this process, and notes what the library is handed.
+extern "C" void* arv_buffer_new_full(std::size_t bytes, void* data, void* owner, void (*let_go)(void*)) {
+  DriverBuffers::add(data);
+  static const auto aravis = reinterpret_cast<decltype(&arv_buffer_new_full)>(dlsym(RTLD_NEXT, "arv_buffer_new_full"));
+  return aravis(bytes, data, owner, let_go);
+}
 
 namespace {
 
@@ -143,28 +172,41 @@ class GigeCapture : public CameraCapture {
   void SetUp() override {
     CameraCapture::SetUp();
     if (!LODESTAR_HAS_ARAVIS || !FakeGigeCamera::installed()) GTEST_SKIP() << "no Aravis, or no aravis-tools";
+    camera_ = std::make_unique<FakeGigeCamera>();
     set("rate_hz", 100);
     set("exposure_s", 0.002);
   }
+  void TearDown() override {
+    loader_.reset();  // before its camera, or it waits for answers
+    camera_.reset();
+    CameraCapture::TearDown();
+  }
+
+  std::unique_ptr<FakeGigeCamera> camera_;
 };
 
 TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
-  FakeGigeCamera camera;
   ASSERT_TRUE(load(FakeGigeCamera::kUri));
   ASSERT_TRUE(more_images(20));
-  camera.unplug();
+  camera_->unplug();
   const ros::WallTime unplugged = ros::WallTime::now();
   ASSERT_TRUE(told("camera lost", 5)) << diagnostics_.message(kNode);
   EXPECT_LT((ros::WallTime::now() - unplugged).toSec(), 1.0);
   EXPECT_EQ(diagnostics_.level(kNode), 2);
-  camera.plug_in();
+  camera_->plug_in();
   ASSERT_TRUE(more_images(20));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "reconnects") >= 1; }));
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
 }
 
+TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {
+  camera_->unplug();
+  ASSERT_TRUE(load(FakeGigeCamera::kUri));
+  camera_->plug_in();
+  EXPECT_TRUE(more_images(10));
+}
+
 TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
-  const FakeGigeCamera camera;
   ros::param::set("/camera_capture/trigger", "Software");
   set("stale_warn_s", 0.1);
   ASSERT_TRUE(load(FakeGigeCamera::kUri));
@@ -173,18 +215,15 @@ TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
     return !age_s.empty() && std::stod(age_s) > 0.5;
   }));
   EXPECT_EQ(diagnostics_.message(kNode).find("images"), std::string::npos) << diagnostics_.message(kNode);
-  loader_.reset();  // before its camera, or it waits for answers
 }
 
 TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {
-  const FakeGigeCamera camera;
   set("exposure_s", 20);
   EXPECT_FALSE(load(FakeGigeCamera::kUri));
 }
 
 // Whether a gain may be negative is for the camera to say.
 TEST_F(GigeCapture, TheLimitsOfAGainAreTheCameras) {
-  const FakeGigeCamera camera;
   Inbox<rosgraph_msgs::Log> log(nh_, "/rosout");
   set("gain", -3);
   EXPECT_FALSE(load(FakeGigeCamera::kUri));
@@ -195,34 +234,30 @@ TEST_F(GigeCapture, TheLimitsOfAGainAreTheCameras) {
   }));
 }
 
-// What the driver wrote is what the detector reads: the same address all the way.
+// The driver is told to write into the messages, and the detector holds on to these very messages: it keeps images
+// until it knows the frame rate.
 TEST_F(GigeCapture, NobodyCopiesAFrame) {
-  const FakeGigeCamera camera;
-  ImagePool pool;
-  std::vector<const std::uint8_t*> given;
-  CameraSettings settings;
-  settings.rate_hz = 100;
-  Capture capture([] { return open_source(FakeGigeCamera::kUri); }, settings,
-                  [&](std::size_t bytes) {
-                    const FrameMemory memory = pool.take(bytes);
-                    given.push_back(memory.data);
-                    return memory;
-                  },
-                  0);
-  std::vector<const std::uint8_t*> read;
-  const ros::Subscriber detector = nh_.subscribe<sensor_msgs::Image>(
-      "copy_free", 10, [&](const sensor_msgs::ImageConstPtr& message) { read.push_back(image_from(message)->data); });
-  ros::Publisher publisher = nh_.advertise<sensor_msgs::Image>("copy_free", 10);
-  ASSERT_TRUE(wait_for([&] { return publisher.getNumSubscribers() > 0; }));
-  for (std::size_t frames = 0; frames < 20;) {
-    const auto captured = capture.next();
-    if (!captured) continue;
-    ASSERT_NE(std::find(given.begin(), given.end(), captured->frame.memory.data), given.end());
-    publisher.publish(ImagePool::message(*captured, "camera"));
-    ++frames;
-    ASSERT_TRUE(wait_for([&] { return read.size() == frames; }));
-    EXPECT_EQ(read.back(), captured->frame.memory.data);
-  }
+  set("rate_hz", 4);
+  ros::param::set("/beacon_detection/site", std::string(LODESTAR_SOURCE_DIR) + "/test/ros/site.yaml");
+  std::vector<boost::weak_ptr<const sensor_msgs::Image>> passing;
+  const auto pass = [&](const sensor_msgs::ImageConstPtr& image) {
+    EXPECT_TRUE(DriverBuffers::gave(image->data.data()));
+    EXPECT_NE(*std::max_element(image->data.begin(), image->data.end()), 0);
+    passing.push_back(image);
+    images_.clear();
+  };
+  const auto beside = image_transport::ImageTransport(nh_).subscribe(
+      "camera/image_raw", 10, boost::function<void(const sensor_msgs::ImageConstPtr&)>(pass));
+  nodelet::Loader detector(false);
+  ASSERT_TRUE(detector.load("/beacon_detection", "lodestar/BeaconDetectionNodelet", {}, {}));
+  ASSERT_TRUE(load(FakeGigeCamera::kUri));
+
+  ASSERT_TRUE(wait_for([&] { return diagnostics_.count("beacon_detection", "image count") >= 3; }));
+  images_.clear();
+  ASSERT_GE(passing.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(passing[i].expired()) << "the detector reads a copy of frame " << i;
+  detector.clear();
+  EXPECT_TRUE(wait_for([&] { return passing[2].expired(); })) << "somebody else held them";
 }
 
 }  // namespace

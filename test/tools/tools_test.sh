@@ -111,6 +111,9 @@ assert abs(fx / 229.4 - 1) < 0.0005 and abs(fy / 229.4 - 1) < 0.0005, (fx, fy)
 assert abs(cx - 319.5) < 0.1 and abs(cy - 239.5) < 0.1, (cx, cy)
 PYTHON
   refused 1 "at least 4" "$bin/calibrate" --images drive.bag $chessboard
+  mkdir torn
+  for shot in shots/*; do head -c 200 "$shot" >torn/shot.png; done
+  refused 1 "no image that can be read" "$bin/calibrate" --images torn $chessboard
   refused 1 "COLUMNSxROWS" "$bin/calibrate" --images shots --board chessboard --size 10by8 --square-m 0.03
   refused 1 "3 to 100" "$bin/calibrate" --images shots --board chessboard --size 2x8 --square-m 0.03
   refused 1 "chessboard, charuco or aprilgrid" "$bin/calibrate" --images shots --board poster --size 10x8 --square-m 0.03

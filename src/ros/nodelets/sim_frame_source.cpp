@@ -36,6 +36,7 @@ class SimFrameSource : public FrameSource {
     info.clock.stamped = SourceClock::Stamped::kExposureMiddle;
     info.clock.heard_at_arrival = false;
     info.exposure_s = scenario_.camera.exposure_s;
+    info.period_s = 1 / scenario_.camera.rate_hz;
     info.intrinsics = scenario_.camera.intrinsics;
     return info;
   }

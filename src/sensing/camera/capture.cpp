@@ -21,7 +21,11 @@ void Capture::open() {
   counter_ = FrameCounter(info_.clock.frame_id_bits);
   reconnects_ += was_open_;
   was_open_ = true;
-  state_ = CaptureState::kRunning;
+  lost_ = false;
+  if (state_ != CaptureState::kSilent || info_.triggered) state_ = CaptureState::kRunning;
+  const double asked_s = settings_.rate_hz ? 1 / *settings_.rate_hz : 0;
+  const double told_s = std::max(info_.period_s > 0 ? info_.period_s : asked_s, info_.exposure_s);
+  if (told_s > 0) period_s_ = told_s;
 }
 
 void Capture::forget_stream() {
@@ -33,7 +37,7 @@ void Capture::forget_stream() {
 
 std::optional<CapturedFrame> Capture::next() {
   if (state_ == CaptureState::kOver) return std::nullopt;
-  if (state_ != CaptureState::kRunning && !reopen()) return std::nullopt;
+  if (lost_ && !reopen()) return std::nullopt;
   try {
     return take(source_->next(kPatience));
   } catch (const CameraError& error) {
@@ -55,10 +59,13 @@ bool Capture::reopen() {
 std::optional<CapturedFrame> Capture::take(Result<DeviceFrame, NoFrame> result) {
   if (result) {
     DeviceFrame frame = std::move(result).value();
-    silent_for_ = {};
-    fault_.clear();
+    hear();
     const Stamp stamp = stamper_->stamp(frame);
     counter_.add(frame.id, stamp);
+    if (counter_.period_s() > 0) {
+      period_s_ = counter_.period_s();
+      may_be_late_ = kSilence;
+    }
     return CapturedFrame{stamp, std::move(frame)};
   }
   if (result.error() == NoFrame::kEnd) {
@@ -66,23 +73,30 @@ std::optional<CapturedFrame> Capture::take(Result<DeviceFrame, NoFrame> result) 
   } else if (result.error() == NoFrame::kTimeout) {
     wait_longer();
   } else {
-    silent_for_ = {};
+    hear();
     missed_.add(result.error());
   }
   return std::nullopt;
 }
 
+void Capture::hear() {
+  silent_for_ = {};
+  state_ = CaptureState::kRunning;
+  fault_.clear();
+}
+
 void Capture::wait_longer() {
   silent_for_ += kPatience;
-  const double told_s = std::max(info_.period_s, info_.exposure_s);
-  const Duration three_frames = from_seconds(3 * (counter_.period_s() > 0 ? counter_.period_s() : told_s));
-  if (info_.triggered || silent_for_ < std::max(kSilence, three_frames)) return;
+  if (info_.triggered || silent_for_ < from_seconds(period_s_) + may_be_late_) return;
+  if (!(counter_.period_s() > 0)) may_be_late_ = std::min(2 * may_be_late_, kMostSilence);
   missed_.add(NoFrame::kTimeout);
   lose(CaptureState::kSilent, info_.name + " is silent");
 }
 
 void Capture::lose(CaptureState state, const std::string& why) {
+  lost_ = true;
   state_ = state;
+  if (state == CaptureState::kClosed) may_be_late_ = kSilence;
   fault_ = why;
 }
 

@@ -31,7 +31,7 @@ bool offers(V4l2Port& port, std::uint32_t format) {
 
 std::optional<SettingRange> range(V4l2Port& port, std::uint32_t control, double unit) {
   const auto answer = v4l2_query(port, control);
-  if (!answer) return std::nullopt;
+  if (!answer || (answer->flags & V4L2_CTRL_FLAG_READ_ONLY)) return std::nullopt;
   return SettingRange{answer->minimum * unit, answer->maximum * unit};
 }
 

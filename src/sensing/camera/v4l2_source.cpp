@@ -49,13 +49,19 @@ void V4l2Source::demand(unsigned long request, void* argument, const std::string
 
 void V4l2Source::refuse(const std::string& what) const { throw CameraRefusal({{name_, 0, what}}); }
 
-void V4l2Source::set(std::uint32_t control, double value) {
-  v4l2_control setting{control, static_cast<std::int32_t>(std::lround(value))};
-  demand(VIDIOC_S_CTRL, &setting, "setting a control");
-}
-
-void V4l2Source::set_if_there(std::uint32_t control, std::int32_t value) {
-  if (v4l2_query(*port_, control)) set(control, value);
+// A driver may list what it cannot change. That is no fault as long as the control stands as it is wanted.
+void V4l2Source::set_if_there(std::uint32_t control, double value) {
+  const auto there = v4l2_query(*port_, control);
+  if (!there) return;
+  const v4l2_control wanted{control, static_cast<std::int32_t>(std::lround(value))};
+  v4l2_control setting = wanted, now{control, 0};
+  const int fault = port_->control(VIDIOC_S_CTRL, &setting);
+  if (fault == 0 || (port_->control(VIDIOC_G_CTRL, &now) == 0 && now.value == wanted.value)) return;
+  const std::string what =
+      std::string(reinterpret_cast<const char*>(there->name)) + " cannot be set to " + std::to_string(wanted.value);
+  const bool for_good = fault == EACCES || fault == EINVAL || fault == ERANGE;
+  if (for_good) refuse(what + ", it is " + std::to_string(now.value) + ": " + std::strerror(fault));
+  throw CameraError(name_ + ": " + what + ": " + std::strerror(fault));
 }
 
 double V4l2Source::exposure_s() {
@@ -123,8 +129,8 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
                                         V4L2_CID_AUTOBRIGHTNESS, V4L2_CID_BACKLIGHT_COMPENSATION})
     set_if_there(automatic, 0);
   if (settings.rate_hz) set_rate(*settings.rate_hz);
-  if (settings.exposure_s) set(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kV4l2ExposureUnit_s);
-  if (settings.gain) set(V4L2_CID_GAIN, *settings.gain);
+  if (settings.exposure_s) set_if_there(V4L2_CID_EXPOSURE_ABSOLUTE, *settings.exposure_s / kV4l2ExposureUnit_s);
+  if (settings.gain) set_if_there(V4L2_CID_GAIN, *settings.gain);
 
   SourceInfo info;
   info.name = name_ + " " + reinterpret_cast<const char*>(capability.card);
@@ -160,7 +166,11 @@ void V4l2Source::map_buffers(SourceClock& clock) {
 }
 
 Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
-  if (!port_->wait(timeout)) return NoFrame::kTimeout;
+  if (!port_->wait(timeout)) {
+    v4l2_capability capability{};
+    demand(VIDIOC_QUERYCAP, &capability, "it is gone");
+    return NoFrame::kTimeout;
+  }
   v4l2_buffer buffer = mapped_buffer(0);
   const int fault = port_->control(VIDIOC_DQBUF, &buffer);
   if (fault == EAGAIN) return NoFrame::kTimeout;
@@ -168,7 +178,8 @@ Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
 
   const bool broken = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.index >= buffers_.size();
   auto frame = broken ? std::nullopt : unpack(buffer);
-  demand(VIDIOC_QBUF, &buffer, "handing back a buffer");
+  v4l2_buffer handed_back = buffer;  // the kernel clears its number and its stamp
+  demand(VIDIOC_QBUF, &handed_back, "handing back a buffer");
   if (!frame) return NoFrame::kIncomplete;
   frame->id = buffer.sequence;
   frame->ticks =

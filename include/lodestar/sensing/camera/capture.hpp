@@ -20,8 +20,8 @@ struct CapturedFrame {
 
 enum class CaptureState {
   kClosed,   ///< the camera is not there, or refused the settings; tried again
-  kRunning,  ///< frames come
-  kSilent,   ///< open, but no frame came for kSilence: it is opened anew with the next call
+  kRunning,  ///< frames come, or their time has not passed yet
+  kSilent,   ///< no frame came when it was due; opened anew until one comes
   kOver,     ///< a recording came to its end
 };
 
@@ -41,7 +41,8 @@ struct CaptureReport {
 class Capture {
  public:
   static constexpr Duration kPatience = std::chrono::milliseconds(100);
-  static constexpr Duration kSilence = std::chrono::milliseconds(500);  ///< or three frames, if that is longer
+  static constexpr Duration kSilence = std::chrono::milliseconds(500);  ///< past the time that a frame was due
+  static constexpr Duration kMostSilence = std::chrono::seconds(8);     ///< where nobody says when it is due
 
   using Open = std::function<std::unique_ptr<FrameSource>()>;
   Capture(Open open, const CameraSettings& settings, FrameAllocator allocate, double transfer_s);
@@ -59,6 +60,7 @@ class Capture {
  private:
   bool reopen();
   std::optional<CapturedFrame> take(Result<DeviceFrame, NoFrame> result);
+  void hear();
   void wait_longer();
   void forget_stream();
   void lose(CaptureState state, const std::string& why);
@@ -74,7 +76,9 @@ class Capture {
   CaptureState state_ = CaptureState::kClosed;
   std::string fault_;
   Duration silent_for_{};
-  bool was_open_ = false;
+  Duration may_be_late_ = kSilence;  ///< doubled with each opening that brought too few frames to learn the period
+  double period_s_ = 0;              ///< from frame to frame, as learnt or told; 0: unknown
+  bool lost_ = true, was_open_ = false;
   std::uint64_t reconnects_ = 0, frames_before_ = 0, dropped_before_ = 0, clock_restarts_before_ = 0;
   DropCounts<NoFrame> missed_;
 };

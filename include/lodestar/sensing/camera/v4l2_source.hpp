@@ -29,8 +29,7 @@ class V4l2Source : public FrameSource {
   };
 
   void demand(unsigned long request, void* argument, const std::string& doing);
-  void set(std::uint32_t control, double value);
-  void set_if_there(std::uint32_t control, std::int32_t value);
+  void set_if_there(std::uint32_t control, double value);
   double exposure_s();
   double period_s();
   void set_format(const CameraSettings& settings);

@@ -18,6 +18,7 @@ struct Script {
   int opened = 0, open_now = 0;
   bool triggered = false;
   double period_s = 0;
+  int frame_every = 0;  ///< if not 0, instead of the steps: all calls but each n-th since the opening time out
 };
 
 class ScriptedSource : public FrameSource {
@@ -35,22 +36,31 @@ class ScriptedSource : public FrameSource {
     return info;
   }
   Result<DeviceFrame, NoFrame> next(Duration) override {
-    const Step step = script_.steps.empty() ? Step::kTimeout : script_.steps.front();
-    if (!script_.steps.empty()) script_.steps.pop_front();
+    const Step step = next_step();
+    ticks_ += step == Step::kTimeout ? 100'000'000 : 10'000'000;
     if (step == Step::kTimeout) return NoFrame::kTimeout;
     if (step == Step::kIncomplete) return NoFrame::kIncomplete;
     if (step == Step::kEnd) return NoFrame::kEnd;
     if (step == Step::kGone) throw CameraError("gone");
     DeviceFrame frame;
     frame.id = id_++;
-    frame.ticks = id_ * 10'000'000;
+    frame.ticks = ticks_;
     frame.heard = {frame.ticks, Stamp(Duration(frame.ticks))};
     return frame;
   }
 
  private:
+  Step next_step() {
+    if (script_.frame_every > 0) return ++calls_ % script_.frame_every == 0 ? Step::kFrame : Step::kTimeout;
+    if (script_.steps.empty()) return Step::kTimeout;
+    const Step step = script_.steps.front();
+    script_.steps.pop_front();
+    return step;
+  }
+
   Script& script_;
-  std::uint64_t id_ = 1;
+  int calls_ = 0;
+  std::uint64_t id_ = 1, ticks_ = 0;
 };
 
 class CaptureTest : public testing::Test {
@@ -99,16 +109,40 @@ TEST_F(CaptureTest, SilenceIsToldWithinHalfASecondAndThenTheCameraIsOpenedAnew) 
   EXPECT_EQ(capture_.report().fault, "");
 }
 
-TEST_F(CaptureTest, ASlowCameraHasThreeOfItsOwnPeriods) {
+TEST_F(CaptureTest, ASlowCameraIsSilentHalfASecondAfterItsFrameWasDue) {
   script_.period_s = 1;
   script_.steps.assign(9, Step::kTimeout);
   script_.steps.push_back(Step::kFrame);
   EXPECT_EQ(frames_of(10), 1);
-  EXPECT_EQ(frames_of(29), 0);
+  EXPECT_EQ(frames_of(14), 0);
   EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
   EXPECT_EQ(frames_of(1), 0);
   EXPECT_EQ(capture_.report().state, CaptureState::kSilent);
   EXPECT_EQ(script_.opened, 1);
+}
+
+TEST_F(CaptureTest, TheRateThatWasAskedForSaysWhenAFrameIsDue) {
+  CameraSettings settings;
+  settings.rate_hz = 1;
+  Capture capture([this] { return std::make_unique<ScriptedSource>(script_); }, settings, frames_.allocator(), 0);
+  for (int i = 0; i < 14; ++i) capture.next();
+  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
+  capture.next();
+  EXPECT_EQ(capture.report().state, CaptureState::kSilent);
+}
+
+// Each opening waits twice as long as the last, until two frames tell the period.
+TEST_F(CaptureTest, ASlowCameraThatDoesNotSayItsPeriodIsNotOpenedForEver) {
+  script_.frame_every = 25;
+  EXPECT_EQ(frames_of(5), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kSilent);
+  EXPECT_EQ(frames_of(10 + 20), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kSilent) << "no frame came yet";
+  EXPECT_EQ(frames_of(25 * 4), 4);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(script_.opened, 4);
+  EXPECT_EQ(frames_of(25 * 4), 4);
+  EXPECT_EQ(script_.opened, 4);
 }
 
 TEST_F(CaptureTest, ACameraThatWaitsForItsTriggerMayBeSilent) {

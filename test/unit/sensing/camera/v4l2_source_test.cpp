@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ctime>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "lodestar/sensing/camera/open_source.hpp"
 #include "support/camera/heap_frames.hpp"
@@ -22,6 +25,8 @@ struct FakeCamera : V4l2Port {
                                                          {V4L2_CID_EXPOSURE_AUTO, {0, 3}},
                                                          {V4L2_CID_GAIN, {0, 100}},
                                                          {V4L2_CID_AUTOGAIN, {0, 1}}};
+  std::set<std::uint32_t> read_only;
+  std::map<std::uint32_t, int> stuck;  ///< controls that answer with this errno when they are set
   std::map<std::uint32_t, int>& controls;
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
@@ -31,6 +36,7 @@ struct FakeCamera : V4l2Port {
   std::vector<std::uint8_t> picture;  ///< of the next frames
   std::uint32_t sequence = 0, next_flags = 0, rate_hz = 30;
   bool streaming = false, unplugged = false;
+  bool wakes = true;  ///< wait() learns when it is unplugged
 
   explicit FakeCamera(std::map<std::uint32_t, int>& controls_in) : controls(controls_in) {
     controls = {{V4L2_CID_EXPOSURE_AUTO, 3}, {V4L2_CID_AUTOGAIN, 1}, {V4L2_CID_EXPOSURE_ABSOLUTE, 156}};
@@ -55,9 +61,12 @@ struct FakeCamera : V4l2Port {
         auto& query = as<v4l2_queryctrl>(argument);
         if (ranges.count(query.id) == 0) return EINVAL;
         std::tie(query.minimum, query.maximum) = ranges[query.id];
+        std::strcpy(reinterpret_cast<char*>(query.name), "Fake Control");
+        query.flags = read_only.count(query.id) > 0 ? V4L2_CTRL_FLAG_READ_ONLY : 0u;
         return 0;
       }
       case VIDIOC_S_CTRL:
+        if (stuck.count(as<v4l2_control>(argument).id) > 0) return stuck[as<v4l2_control>(argument).id];
         controls[as<v4l2_control>(argument).id] = as<v4l2_control>(argument).value;
         return 0;
       case VIDIOC_G_CTRL:
@@ -109,6 +118,8 @@ struct FakeCamera : V4l2Port {
       }
       case VIDIOC_QBUF:
         queue.push_back(as<v4l2_buffer>(argument).index);
+        as<v4l2_buffer>(argument).sequence = 0;  // as the kernel does: the buffer is a new one
+        as<v4l2_buffer>(argument).timestamp = {};
         return 0;
       case VIDIOC_STREAMON:
         streaming = true;
@@ -131,7 +142,7 @@ struct FakeCamera : V4l2Port {
         return 0;
     }
   }
-  bool wait(Duration) override { return unplugged || (streaming && !picture.empty()); }
+  bool wait(Duration) override { return wakes && (unplugged || (streaming && !picture.empty())); }
   std::uint8_t* map(std::size_t, std::int64_t offset) override {
     return memory[static_cast<std::size_t>(offset)].data();
   }
@@ -245,6 +256,28 @@ TEST_F(V4l2SourceTest, NothingIsAutomatic) {
   EXPECT_FALSE(info.clock.heard_at_arrival);
 }
 
+TEST_F(V4l2SourceTest, AControlThatCannotBeSetIsNoFaultWhileItStandsAsWanted) {
+  camera_->stuck = {{V4L2_CID_AUTOGAIN, EACCES}};
+  controls_[V4L2_CID_AUTOGAIN] = 0;
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(V4l2SourceTest, WhatStaysAutomaticIsRefused) {
+  camera_->stuck = {{V4L2_CID_AUTOGAIN, EACCES}};
+  EXPECT_EQ(refusal(), "v4l2:/dev/fake: Fake Control cannot be set to 0, it is 1: Permission denied\n");
+}
+
+TEST_F(V4l2SourceTest, AControlThatIsBusyMayBeTriedAgain) {
+  camera_->stuck = {{V4L2_CID_AUTOGAIN, EBUSY}};
+  EXPECT_THROW(start(), CameraError);
+}
+
+TEST_F(V4l2SourceTest, AnExposureThatCanOnlyBeReadHasNoLimits) {
+  camera_->read_only = {V4L2_CID_EXPOSURE_ABSOLUTE};
+  settings_.exposure_s = 0.002;
+  EXPECT_EQ(refusal(), "v4l2:/dev/fake: exposure_s is 0.002 s, the camera cannot be told: leave exposure_s out\n");
+}
+
 TEST_F(V4l2SourceTest, LimitsAreTold) {
   settings_.exposure_s = 3;
   settings_.pixel_format = "mono8";
@@ -270,12 +303,46 @@ TEST_F(V4l2SourceTest, UnpluggedIsAnError) {
   EXPECT_EQ(source_.next({}).error(), NoFrame::kTimeout);
   camera_->unplugged = true;
   EXPECT_THROW(source_.next({}), CameraError);
+  camera_->wakes = false;
+  EXPECT_THROW(source_.next({}), CameraError) << "a camera is asked";
 }
 
 TEST(V4l2, DevicesThatAreNone) {
   EXPECT_THROW(open_source("v4l2:/dev/no_such_video"), CameraError);
   test::HeapFrames memory;
   EXPECT_THROW(open_source("v4l2:/dev/null")->start({}, memory.allocator()), CameraError);
+}
+
+/// /dev/video*, in order.
+std::set<std::string> video_devices() {
+  std::set<std::string> devices;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev"))
+    if (entry.path().filename().string().rfind("video", 0) == 0) devices.insert(entry.path());
+  return devices;
+}
+
+// Where a machine has a camera: the kernel itself instead of the fake. Test patterns will do (modprobe vivid).
+TEST(V4l2, TheFirstCameraOfThisMachineStreams) {
+  const auto devices = video_devices();
+  if (devices.empty()) GTEST_SKIP() << "this machine has no /dev/video*";
+  test::HeapFrames memory;
+  CameraSettings beyond;
+  beyond.exposure_s = 1e6;
+  EXPECT_THROW(open_source("v4l2:" + *devices.begin())->start(beyond, memory.allocator()), CameraRefusal);
+
+  const auto source = open_source("v4l2:" + *devices.begin());
+  const SourceInfo info = source->start({}, memory.allocator());
+  std::vector<DeviceFrame> frames;
+  for (int tries = 0; frames.size() < 10 && tries < 20; ++tries)
+    if (const auto frame = source->next(std::chrono::seconds(1))) frames.push_back(*frame);
+  ASSERT_EQ(frames.size(), 10u) << info.name;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_TRUE(memory.gave(frames[i].memory.data));
+    EXPECT_LT(std::abs(seconds(Duration(frames[i].heard.ticks) - Duration(frames[i].ticks))), 1);
+    if (i == 0) continue;
+    EXPECT_GT(frames[i].id, frames[i - 1].id);
+    EXPECT_GT(frames[i].ticks, frames[i - 1].ticks);
+  }
 }
 
 }  // namespace

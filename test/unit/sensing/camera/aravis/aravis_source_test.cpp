@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 #include "lodestar/sensing/camera/capture.hpp"
@@ -36,6 +37,13 @@ class AravisSourceTest : public testing::Test {
     return frames == 0;
   }
 
+  /// The next whole frame. A sender that a busy machine stops in the middle of one leaves it incomplete.
+  static DeviceFrame whole_frame(FrameSource& source) {
+    for (int i = 0; i < 50; ++i)
+      if (const auto frame = source.next(std::chrono::seconds(1))) return *frame;
+    throw std::runtime_error("no whole frame");
+  }
+
   CameraSettings settings_;
   test::HeapFrames memory_;
 };
@@ -48,12 +56,11 @@ TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
   EXPECT_NEAR(info.period_s, 0.01, 1e-6);
   EXPECT_EQ(info.clock.frame_id_bits, 16);
   for (int i = 0; i < 10; ++i) {
-    const auto frame = source->next(std::chrono::seconds(1));
-    ASSERT_TRUE(frame.ok()) << name(frame.error());
-    EXPECT_TRUE(memory_.gave(frame->memory.data));
-    EXPECT_EQ(frame->stride_bytes, static_cast<std::size_t>(frame->width_px));
-    std::uint8_t* const end = frame->memory.data + frame->stride_bytes * static_cast<std::size_t>(frame->height_px);
-    EXPECT_NE(std::find_if(frame->memory.data, end, [](std::uint8_t grey) { return grey != 0; }), end);
+    const DeviceFrame frame = whole_frame(*source);
+    EXPECT_TRUE(memory_.gave(frame.memory.data));
+    EXPECT_EQ(frame.stride_bytes, static_cast<std::size_t>(frame.width_px));
+    std::uint8_t* const end = frame.memory.data + frame.stride_bytes * static_cast<std::size_t>(frame.height_px);
+    EXPECT_NE(std::find_if(frame.memory.data, end, [](std::uint8_t grey) { return grey != 0; }), end);
   }
 }
 
@@ -64,13 +71,11 @@ TEST_F(AravisSourceTest, SixteenBitsAndAnotherSize) {
   settings_.height_px = 200;
   const auto source = open_source(FakeGigeCamera::kUri);
   source->start(settings_, memory_.allocator());
-  auto frame = source->next(std::chrono::seconds(1));
-  for (int i = 0; !frame && i < 20; ++i) frame = source->next(std::chrono::seconds(1));  // however slow the machine is
-  ASSERT_TRUE(frame.ok());
-  EXPECT_EQ(frame->bits, 16);
-  EXPECT_EQ(frame->width_px, 320);
-  EXPECT_EQ(frame->height_px, 200);
-  EXPECT_EQ(frame->stride_bytes, 640u);
+  const DeviceFrame frame = whole_frame(*source);
+  EXPECT_EQ(frame.bits, 16);
+  EXPECT_EQ(frame.width_px, 320);
+  EXPECT_EQ(frame.height_px, 200);
+  EXPECT_EQ(frame.stride_bytes, 640u);
 }
 
 TEST_F(AravisSourceTest, LimitsAreTheCameras) {
@@ -91,6 +96,7 @@ TEST_F(AravisSourceTest, LimitsAreTheCameras) {
 
 TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const FakeGigeCamera camera;
+  settings_.rate_hz = 200;
   Capture capture = this->capture();
   ASSERT_TRUE(gets(capture, 40));
   EXPECT_EQ(capture.report().clock_restarts, 0u);
@@ -110,21 +116,11 @@ TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const double before_arrival_s = 0.5 * *settings_.exposure_s;
   for (std::size_t i = 0; i < frames.size(); ++i)
     EXPECT_LE(stamp_delays_s[i], arrival_delays_s[i] - before_arrival_s + 1e-6);
-  // Asked for 100 Hz; what a busy machine makes of that stands in the frames.
+  // Asked for 200 Hz; what a busy machine makes of that stands in the frames.
   const double passed_s = seconds(Duration(frames.back().ticks - frames.front().ticks));
   const double rate_hz = static_cast<double>(frames.back().id - frames.front().id) / passed_s;
-  EXPECT_LT(rate_hz, 110);
+  EXPECT_LT(rate_hz, 220);
   EXPECT_NEAR(capture.report().rate_hz, rate_hz, 0.15 * rate_hz);
-}
-
-TEST_F(AravisSourceTest, WaitsForItsTrigger) {
-  const FakeGigeCamera camera;
-  settings_.trigger = "Line9";
-  EXPECT_THROW(capture().open(), CameraRefusal);
-  settings_.trigger = "Software";
-  Capture capture = this->capture();
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(capture.next());  // forty frames' time
-  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
 }
 
 TEST_F(AravisSourceTest, FrozenThenBack) {
@@ -133,38 +129,29 @@ TEST_F(AravisSourceTest, FrozenThenBack) {
   ASSERT_TRUE(gets(capture, 10));
   camera.freeze();
   const auto frozen = std::chrono::steady_clock::now();
-  while (capture.report().state == CaptureState::kRunning) capture.next();
+  while (capture.report().state == CaptureState::kRunning) capture.next();  // no frame, no answer: whichever is first
   EXPECT_LT(std::chrono::steady_clock::now() - frozen, std::chrono::seconds(1));
-  EXPECT_EQ(capture.report().state, CaptureState::kSilent);
   camera.thaw();
   EXPECT_TRUE(gets(capture, 10));
   EXPECT_GE(capture.report().reconnects, 1u);  // a camera that wakes slowly is taken up once more
 }
 
-TEST_F(AravisSourceTest, KilledAndStartedAgain) {
+// No frame is awaited, so only whether it answers tells.
+TEST_F(AravisSourceTest, WaitsForItsTriggerAndIsKilled) {
   FakeGigeCamera camera;
-  Capture capture = this->capture();
-  ASSERT_TRUE(gets(capture, 10));
-  camera.unplug();
-  while (capture.report().state == CaptureState::kRunning) capture.next();
-  camera.plug_in();
-  EXPECT_TRUE(gets(capture, 10));
-  EXPECT_GE(capture.report().reconnects, 1u);
-}
-
-// No frame is awaited, so only the camera's own silence tells.
-TEST_F(AravisSourceTest, KilledWhileItWaitsForItsTrigger) {
-  FakeGigeCamera camera;
+  settings_.trigger = "Line9";
+  EXPECT_THROW(capture().open(), CameraRefusal);
   settings_.trigger = "Software";
   Capture capture = this->capture();
-  capture.open();
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(capture.next());  // thirty frames' time
+  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
   camera.unplug();
   const auto unplugged = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::steady_clock::now() - unplugged; };
   while (capture.report().state == CaptureState::kRunning && passed() < std::chrono::seconds(20)) capture.next();
   EXPECT_EQ(capture.report().state, CaptureState::kClosed);
   EXPECT_NE(capture.report().fault.find("does not answer"), std::string::npos) << capture.report().fault;
-  EXPECT_LT(passed(), std::chrono::seconds(10));
+  EXPECT_LT(passed(), std::chrono::seconds(1));
   camera.plug_in();
   while (capture.report().reconnects == 0 && passed() < std::chrono::seconds(30)) capture.next();
   EXPECT_EQ(capture.report().state, CaptureState::kRunning);
@@ -177,12 +164,6 @@ TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {
   while (capture.report().dropped == 0 && std::chrono::steady_clock::now() < end) ASSERT_TRUE(gets(capture, 10));
   EXPECT_GT(capture.report().missed[NoFrame::kIncomplete], 0u);
   EXPECT_GE(capture.report().dropped, 1u);
-}
-
-TEST_F(AravisSourceTest, NobodyThere) {
-  FakeGigeCamera camera;
-  camera.unplug();
-  EXPECT_THROW(open_source(FakeGigeCamera::kUri), CameraError);
 }
 
 TEST_F(AravisSourceTest, NotOnThatBus) {
