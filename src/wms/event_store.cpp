@@ -42,6 +42,7 @@ int execute(Statement& statement, const Values&... values) {
 }
 
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+std::int64_t ticks(Duration duration) { return static_cast<std::int64_t>(duration.count()); }
 std::uint64_t unsigned_of(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
 void require_sound(SQLite::Database& database, const char* check) {
@@ -76,23 +77,33 @@ struct EventStore::Sql {
 
   struct Row {
     StoredDocument stored;
-    bool frozen;
-    Duration clock_step;
-    std::uint64_t corrects;
-    std::string boot;
+    bool frozen, corrects;
+    WallClock clock;
   };
-  std::vector<Row> rows(std::uint64_t first, std::size_t most) {
+  /// @param boot_step of the clock in this boot, as it may not be written yet
+  std::vector<Row> rows(std::uint64_t first, std::size_t most, const std::string& boot, Duration boot_step) {
     get_events.tryReset();
     get_events.bind(1, signed_of(first));
     get_events.bind(2, static_cast<std::int64_t>(most));
+    get_events.bind(3, boot);
+    get_events.bind(4, ticks(boot_step));
     std::vector<Row> out;
     while (get_events.executeStep())
       out.push_back({{unsigned_of(get_events.getColumn(0)), get_events.getColumn(1).getString()},
                      get_events.getColumn(2).getInt() != 0,
-                     Duration(get_events.getColumn(3).getInt64()),
-                     unsigned_of(get_events.getColumn(4)),
-                     get_events.getColumn(5).getString()});
+                     get_events.getColumn(3).getInt64() > 0,
+                     {get_events.getColumn(4).getInt() != 0, Duration(get_events.getColumn(5).getInt64())}});
     get_events.tryReset();
+    return out;
+  }
+
+  /// All that is frozen of the pallet that a correction corrects, and of the one that it is told of.
+  std::vector<std::string> told_of_the_corrected(std::uint64_t sequence) {
+    get_told.tryReset();
+    get_told.bind(1, signed_of(sequence));
+    std::vector<std::string> out;
+    while (get_told.executeStep()) out.push_back(get_told.getColumn(0).getString());
+    get_told.tryReset();
     return out;
   }
 
@@ -106,9 +117,10 @@ struct EventStore::Sql {
   SQLite::Database database;
   Ballast ballast;
   Statement put_meta{database, "INSERT INTO meta VALUES(?, ?) ON CONFLICT(key) DO UPDATE SET value = excluded.value"};
-  Statement put_event{database,
-                      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot, clock_step_ns)"
-                      " VALUES(?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
+  Statement put_event{
+      database,
+      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot, clock_step_ns,"
+      " synchronised) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
   Statement put_pallet{database,
                        "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                        " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
@@ -116,14 +128,20 @@ struct EventStore::Sql {
   Statement drop_place{database, "DELETE FROM place WHERE key = ?"};
   Statement put_place{database, "INSERT INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
   Statement get_events{database,
-                       "SELECT sequence, document, frozen, clock_step_ns, corrects, boot FROM event WHERE sequence >= ?"
-                       " ORDER BY sequence LIMIT ?"};
+                       "SELECT sequence, document, frozen, corrects, synchronised,"
+                       " clock_step_ns + CASE boot WHEN ?3 THEN ?4 ELSE IFNULL(step_ns, 0) END"
+                       " FROM event LEFT JOIN clock USING(boot) WHERE sequence >= ?1 ORDER BY sequence LIMIT ?2"};
   Statement freeze_event{database, "UPDATE event SET document = ?, frozen = 1 WHERE sequence = ?"};
-  Statement get_corrected{database,
-                          "SELECT document FROM event WHERE heard = ? AND sequence < ? AND frozen = 1"
-                          " ORDER BY sequence DESC LIMIT 1"};
+  Statement get_told{
+      database,
+      "SELECT document FROM event INDEXED BY event_pallet WHERE sequence < ?1 AND frozen = 1 AND pallet IN("
+      "(SELECT pallet FROM event WHERE sequence = ?1),"
+      "(SELECT told.pallet FROM event AS told JOIN event AS correction ON told.heard = correction.corrects"
+      " WHERE correction.sequence = ?1 AND told.sequence < ?1 ORDER BY told.sequence DESC LIMIT 1))"
+      " ORDER BY sequence"};
   Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
-  Statement mark_events{database, "UPDATE event SET clock_step_ns = clock_step_ns + ? WHERE frozen = 0 AND boot = ?"};
+  Statement put_clock{database, "REPLACE INTO clock VALUES(?, ?, ?)"};
+  Statement forget_clocks{database, "DELETE FROM clock WHERE boot <> ?"};
 };
 
 EventStore::EventStore(const StoreParams& params, const std::string& new_stream) : params_(params) {
@@ -141,6 +159,12 @@ void EventStore::load(const std::string& new_stream) {
   if (!stream) execute(sql_->put_meta, "stream", new_stream);
   stream_ = stream.value_or(new_stream);
   acknowledged_ = std::stoull(sql_->meta("acknowledged").value_or("0"));
+  Statement clock(sql_->database, "SELECT offset_ns, step_ns FROM clock WHERE boot = ?");
+  clock.bind(1, params_.boot);
+  if (clock.executeStep()) {
+    clock_offset_ = Duration(clock.getColumn(0).getInt64());
+    clock_step_ = Duration(clock.getColumn(1).getInt64());
+  }
   Statement newest(sql_->database, "SELECT sequence, heard FROM event ORDER BY sequence DESC LIMIT 1");
   last_ = acknowledged_;
   if (!newest.executeStep()) return;
@@ -177,11 +201,11 @@ bool EventStore::run_with_reserve(Job job) {
   return done;
 }
 
-Recorded EventStore::record(const PalletChange& change, const std::string& draft, Duration clock_step) {
+Recorded EventStore::record(const PalletChange& change, const std::string& draft, const WallClock& clock) {
   Recorded result = Recorded::kNew;
-  const auto job = [&] { result = insert(change, draft, clock_step); };
+  const auto job = [&] { result = insert(change, draft, clock); };
   // Without ballast there is only the room that emptying the queue needs.
-  full_ = !mark_pending_step() || (!(sql_->ballast.hold() && run(job)) && !(make_room() && run(job)));
+  full_ = !keep_clock() || (!(sql_->ballast.hold() && run(job)) && !(make_room() && run(job)));
   if (full_) return Recorded::kFull;
   if (result == Recorded::kKnown) return result;
   ++last_;
@@ -189,11 +213,10 @@ Recorded EventStore::record(const PalletChange& change, const std::string& draft
   return result;
 }
 
-Recorded EventStore::insert(const PalletChange& change, const std::string& draft, Duration clock_step) {
-  const int inserted =
-      execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
-              static_cast<std::int64_t>(change.stamp.time_since_epoch().count()), change.pallet.id,
-              signed_of(change.corrects), draft, params_.boot, static_cast<std::int64_t>(clock_step.count()));
+Recorded EventStore::insert(const PalletChange& change, const std::string& draft, const WallClock& clock) {
+  const int inserted = execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
+                               ticks(change.stamp.time_since_epoch()), change.pallet.id, signed_of(change.corrects),
+                               draft, params_.boot, ticks(clock.step - clock_step_), clock.synchronised ? 1 : 0);
   if (inserted == 0) return Recorded::kKnown;
   put_pallet(change);
   return Recorded::kNew;
@@ -229,33 +252,22 @@ bool EventStore::make_room() {
 }
 
 std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
-  const std::vector<Sql::Row> rows = checked([&] { return sql_->rows(first, most); });
+  const std::vector<Sql::Row> rows = checked([&] { return sql_->rows(first, most, params_.boot, clock_step_); });
   std::vector<StoredDocument> out;
   for (const Sql::Row& row : rows) out.push_back(row.stored);
   if (std::all_of(rows.begin(), rows.end(), [](const Sql::Row& row) { return row.frozen; })) return out;
   const bool done = run_with_reserve([&] {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].frozen) continue;
-      const StoredDocument& draft = rows[i].stored;
-      const Duration pending = rows[i].boot == params_.boot ? pending_step_ : Duration::zero();
-      out[i].document = freeze(draft.document, draft.sequence, rows[i].clock_step + pending,
-                               corrected_document(rows[i].corrects, draft.sequence));
-      execute(sql_->freeze_event, out[i].document, signed_of(draft.sequence));
+      const auto& [sequence, draft] = rows[i].stored;
+      StoredDraft whole{sequence, draft, rows[i].clock, {}};
+      if (rows[i].corrects) whole.told = sql_->told_of_the_corrected(sequence);
+      out[i].document = freeze(whole);
+      execute(sql_->freeze_event, out[i].document, signed_of(sequence));
     }
   });
   if (!done) out.clear();
   return out;
-}
-
-std::string EventStore::corrected_document(std::uint64_t heard, std::uint64_t before) {
-  if (heard == 0) return "";
-  Statement& get = sql_->get_corrected;
-  get.tryReset();
-  get.bind(1, signed_of(heard));
-  get.bind(2, signed_of(before));
-  const std::string document = get.executeStep() ? get.getColumn(0).getString() : "";
-  get.tryReset();
-  return document;
 }
 
 bool EventStore::acknowledge(std::uint64_t sequence) {
@@ -264,6 +276,7 @@ bool EventStore::acknowledge(std::uint64_t sequence) {
   const bool done = run_with_reserve([&] {
     execute(sql_->put_meta, "acknowledged", std::to_string(sequence));
     if (forgotten > 0) execute(sql_->forget_events, signed_of(forgotten));
+    if (sequence == last_) execute(sql_->forget_clocks, params_.boot);
   });
   if (!done) return false;
   acknowledged_ = sequence;
@@ -272,34 +285,17 @@ bool EventStore::acknowledge(std::uint64_t sequence) {
 }
 
 bool EventStore::mark_clock_step(Duration step, Duration offset) {
-  pending_step_ += step;
-  pending_offset_ = offset;
-  return mark_pending_step();
+  clock_step_ += step;
+  clock_offset_ = offset;
+  clock_is_kept_ = false;
+  return keep_clock();
 }
 
-bool EventStore::mark_pending_step() {
-  if (pending_step_ == Duration::zero()) return true;
-  const bool done = run_with_reserve([&] {
-    execute(sql_->mark_events, static_cast<std::int64_t>(pending_step_.count()), params_.boot);
-    put_clock_offset(pending_offset_);
-  });
-  if (done) pending_step_ = Duration::zero();
-  return done;
-}
-
-std::optional<Duration> EventStore::clock_offset() const {
-  const auto offset = sql_->meta("clock_offset:" + params_.boot);
-  if (!offset) return std::nullopt;
-  return Duration(std::stoll(*offset));
-}
-
-void EventStore::keep_clock_offset(Duration offset) {
-  run_with_reserve([&] { put_clock_offset(offset); });
-}
-
-void EventStore::put_clock_offset(Duration offset) {
-  sql_->database.exec("DELETE FROM meta WHERE key LIKE 'clock_offset:%'");
-  execute(sql_->put_meta, "clock_offset:" + params_.boot, std::to_string(offset.count()));
+bool EventStore::keep_clock() {
+  if (clock_is_kept_) return true;
+  clock_is_kept_ =
+      run_with_reserve([&] { execute(sql_->put_clock, params_.boot, ticks(*clock_offset_), ticks(clock_step_)); });
+  return clock_is_kept_;
 }
 
 std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {

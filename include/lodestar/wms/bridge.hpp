@@ -83,7 +83,7 @@ class Bridge {
   void record_waiting();
   struct Waiting {
     PalletChange change;
-    Duration clock_step{};  ///< by which the wall clock was set since
+    WallClock clock;
   };
   bool record(const Waiting& waiting);
   void count_heard(std::uint64_t before, std::uint64_t sequence);

@@ -1,6 +1,7 @@
 #include "lodestar/ros/nodelets/wms_bridge_nodelet.hpp"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <sys/timex.h>
 
 #include <chrono>
 #include <ctime>
@@ -26,7 +27,16 @@ Instant since_boot() {
   return Instant(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
 }
 
-ClockReading clocks() { return {Stamp(std::chrono::system_clock::now().time_since_epoch()), since_boot()}; }
+/// What NTP and PTP services tell the kernel. The events' own clock may be a simulation's or a bag's, which is never
+/// wrong.
+bool synchronised() {
+  timex state{};
+  return ros::Time::isSimTime() || (adjtimex(&state) >= 0 && (state.status & STA_UNSYNC) == 0);
+}
+
+ClockReading clocks() {
+  return {Stamp(std::chrono::system_clock::now().time_since_epoch()), since_boot(), synchronised()};
+}
 
 }  // namespace
 
