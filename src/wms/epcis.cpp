@@ -20,9 +20,8 @@ using Keys = std::initializer_list<const char*>;
 const json kNamespaces = {{"lodestar", "https://lodestar.example/epcis/"}};
 constexpr char kContext[] = "https://ref.gs1.org/standards/epcis/2.0.0/epcis-context.jsonld";
 
+/// What is not UTF-8 in it is replaced.
 std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
-
-std::string utf8(const std::string& text) { return json::parse(text_of(text)).get<std::string>(); }
 
 /// To a tenth of a millimetre or milliradian: more is noise. Minus zero is zero.
 double rounded(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
@@ -68,11 +67,11 @@ json event(const EpcisParams& params, const PalletChange& change, const char* ty
     out["disposition"] = gone ? "in_transit" : in_doubt ? "unknown" : "in_progress";
     if (!gone) out["bizLocation"] = place(params, pallet);
   }
-  if (!pallet.type.empty()) out["lodestar:palletType"] = utf8(pallet.type);
-  if (!pallet.zone.empty() && !valid_gln_extension(pallet.zone)) out["lodestar:zone"] = utf8(pallet.zone);
+  if (!pallet.type.empty()) out["lodestar:palletType"] = pallet.type;
+  if (!pallet.zone.empty() && !valid_gln_extension(pallet.zone)) out["lodestar:zone"] = pallet.zone;
   for (const std::string& candidate : change.candidates)
     if (valid_uuid(candidate)) out["lodestar:candidate"].push_back(uuid_uri(candidate));
-  if (!change.reason.empty()) out["lodestar:reason"] = utf8(change.reason);
+  if (!change.reason.empty()) out["lodestar:reason"] = change.reason;
   return out;
 }
 

@@ -41,6 +41,8 @@ int execute(Statement& statement, const Values&... values) {
   return statement.exec();
 }
 
+bool has_place(PalletState state) { return state == PalletState::kStanding || state == PalletState::kUncertain; }
+
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::int64_t ticks(Duration duration) { return static_cast<std::int64_t>(duration.count()); }
 std::uint64_t unsigned_of(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
@@ -125,8 +127,9 @@ struct EventStore::Sql {
                        "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                        " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
                        " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence RETURNING key"};
-  Statement drop_place{database, "DELETE FROM place WHERE key = ?"};
-  Statement put_place{database, "INSERT INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
+  Statement drop_pallet{database, "DELETE FROM pallet WHERE id = ?"};
+  Statement drop_place{database, "DELETE FROM place WHERE key = (SELECT key FROM pallet WHERE id = ?)"};
+  Statement put_place{database, "REPLACE INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
   Statement get_events{database,
                        "SELECT sequence, document, frozen, corrects, synchronised,"
                        " clock_step_ns + CASE boot WHEN ?3 THEN ?4 ELSE IFNULL(step_ns, 0) END"
@@ -222,8 +225,10 @@ Recorded EventStore::insert(const PalletChange& change, const std::string& draft
   return Recorded::kNew;
 }
 
+/// A lift leaves the old place where it is: the state says that the pallet does not stand there.
 void EventStore::put_pallet(const PalletChange& change) {
   const Pallet& pallet = change.pallet;
+  if (pallet.state == PalletState::kGone) return forget_pallet(pallet.id);
   Statement& put = sql_->put_pallet;
   put.tryReset();
   put.bind(1, pallet.id);
@@ -237,10 +242,14 @@ void EventStore::put_pallet(const PalletChange& change) {
   while (put.executeStep()) {
   }
   put.tryReset();
-  execute(sql_->drop_place, key);
-  if (pallet.state != PalletState::kStanding && pallet.state != PalletState::kUncertain) return;
+  if (!has_place(pallet.state)) return;
   const auto p = pallet.T_map_pallet.translation();
   execute(sql_->put_place, key, p.x(), p.x(), p.y(), p.y(), p.z(), p.z());
+}
+
+void EventStore::forget_pallet(const std::string& id) {
+  execute(sql_->drop_place, id);
+  execute(sql_->drop_pallet, id);
 }
 
 /// History is the only thing that may go. @return whether there is a point in trying again
@@ -303,7 +312,8 @@ std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {
     Statement get(sql_->database,
                   "SELECT id, sscc, zone, state, level, sequence FROM place JOIN pallet USING(key)"
                   " WHERE high_x >= ? AND low_x <= ? AND high_y >= ? AND low_y <= ? AND high_z >= ? AND low_z <= ?"
-                  " ORDER BY id");
+                  " AND state <> ? ORDER BY id");
+    get.bind(7, static_cast<int>(PalletState::kOnFork));
     for (int axis = 0; axis < 3; ++axis) {
       get.bind(2 * axis + 1, box.low_m[axis]);
       get.bind(2 * axis + 2, box.high_m[axis]);

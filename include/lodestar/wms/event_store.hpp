@@ -48,7 +48,7 @@ struct StoredDraft {
   std::vector<std::string> told;  ///< of a correction: the documents about its pallet that are known, oldest first
 };
 
-/// A pallet as the last event left it.
+/// A pallet on the site as the last event left it.
 struct StoredPallet {
   std::string id, sscc, zone;
   PalletState state = PalletState::kStanding;
@@ -108,6 +108,7 @@ class EventStore {
   void load(const std::string& new_stream);
   Recorded insert(const PalletChange& change, const std::string& draft, const WallClock& clock);
   void put_pallet(const PalletChange& change);
+  void forget_pallet(const std::string& id);
   bool make_room();
   template <class Job>
   bool run(Job job);

@@ -134,6 +134,20 @@ TEST_F(Store, PalletsAndTheirPlaces) {
   found = store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].id, uuid(2));
+  // Gone it is forgotten, and set down anew where it stands now.
+  PalletChange gone = change(4);
+  gone.sequence = 42;
+  gone.pallet.state = PalletState::kGone;
+  store.record(gone, "d");
+  EXPECT_TRUE(store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}}).empty());
+  PalletChange back = change(4);
+  back.sequence = 43;
+  store.record(back, "d");
+  EXPECT_EQ(store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}}).size(), 1u);
+  back.sequence = 44;
+  back.pallet.T_map_pallet.translation().x() = 7;
+  store.record(back, "d");
+  EXPECT_TRUE(store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}}).empty());
 }
 
 TEST_F(Store, AFullFileKeepsAllAndIsWorkedOff) {
