@@ -57,7 +57,9 @@ SQLite::Database open_database(const std::string& path) {
   require_sound(database, "PRAGMA quick_check(1)");
   database.exec("PRAGMA journal_mode = WAL");
   database.exec("PRAGMA synchronous = FULL");
-  database.exec("PRAGMA journal_size_limit = 1048576");
+  // Above what the log grows to between two checkpoints (4 MB): cut off each time, it would have to grow anew, and an
+  // fsync of a file that grew takes twice as long.
+  database.exec("PRAGMA journal_size_limit = 8388608");
   migrate(database);
   require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
@@ -76,6 +78,16 @@ struct EventStore::Sql {
     return error.getErrorCode() == SQLITE_FULL ||
            (error.getErrorCode() == SQLITE_IOERR && sqlite3_system_errno(database.getHandle()) == ENOSPC);
   }
+
+  struct RollBackAtEnd {
+    ~RollBackAtEnd() {
+      if (sqlite3_get_autocommit(sql.database.getHandle()) != 0) return;
+      sql.roll_back.tryReset();
+      sql.roll_back.tryExecuteStep();
+      sql.roll_back.tryReset();
+    }
+    Sql& sql;
+  };
 
   struct Row {
     StoredDocument stored;
@@ -118,6 +130,7 @@ struct EventStore::Sql {
 
   SQLite::Database database;
   Ballast ballast;
+  Statement begin{database, "BEGIN"}, commit{database, "COMMIT"}, roll_back{database, "ROLLBACK"};
   Statement put_meta{database, "INSERT INTO meta VALUES(?, ?) ON CONFLICT(key) DO UPDATE SET value = excluded.value"};
   Statement put_event{
       database,
@@ -126,10 +139,10 @@ struct EventStore::Sql {
   Statement put_pallet{database,
                        "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                        " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
-                       " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence RETURNING key"};
+                       " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence"};
   Statement drop_pallet{database, "DELETE FROM pallet WHERE id = ?"};
   Statement drop_place{database, "DELETE FROM place WHERE key = (SELECT key FROM pallet WHERE id = ?)"};
-  Statement put_place{database, "REPLACE INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
+  Statement put_place{database, "REPLACE INTO place SELECT key, ?2, ?2, ?3, ?3, ?4, ?4 FROM pallet WHERE id = ?1"};
   Statement get_events{database,
                        "SELECT sequence, document, frozen, corrects, synchronised,"
                        " clock_step_ns + CASE boot WHEN ?3 THEN ?4 ELSE IFNULL(step_ns, 0) END"
@@ -180,9 +193,10 @@ template <class Job>
 bool EventStore::run(Job job) {
   return checked([&] {
     try {
-      SQLite::Transaction transaction(sql_->database);
+      const Sql::RollBackAtEnd unless_committed{*sql_};
+      execute(sql_->begin);
       job();
-      transaction.commit();
+      execute(sql_->commit);
       return true;
     } catch (const SQLite::Exception& error) {
       if (!sql_->out_of_room(error)) throw;
@@ -229,22 +243,11 @@ Recorded EventStore::insert(const PalletChange& change, const std::string& draft
 void EventStore::put_pallet(const PalletChange& change) {
   const Pallet& pallet = change.pallet;
   if (pallet.state == PalletState::kGone) return forget_pallet(pallet.id);
-  Statement& put = sql_->put_pallet;
-  put.tryReset();
-  put.bind(1, pallet.id);
-  put.bind(2, pallet.sscc);
-  put.bind(3, static_cast<int>(pallet.state));
-  put.bind(4, pallet.zone);
-  put.bind(5, pallet.level);
-  put.bind(6, signed_of(last_ + 1));
-  put.executeStep();
-  const std::int64_t key = put.getColumn(0).getInt64();
-  while (put.executeStep()) {
-  }
-  put.tryReset();
+  execute(sql_->put_pallet, pallet.id, pallet.sscc, static_cast<int>(pallet.state), pallet.zone, pallet.level,
+          signed_of(last_ + 1));
   if (!has_place(pallet.state)) return;
   const auto p = pallet.T_map_pallet.translation();
-  execute(sql_->put_place, key, p.x(), p.x(), p.y(), p.y(), p.z(), p.z());
+  execute(sql_->put_place, pallet.id, p.x(), p.y(), p.z());
 }
 
 void EventStore::forget_pallet(const std::string& id) {
