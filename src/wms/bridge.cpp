@@ -56,7 +56,7 @@ void Bridge::with_store(const ClockReading& now, Job job) {
 }
 
 void Bridge::take(PalletChange change, const ClockReading& now) {
-  last_heard_ = change.sequence;
+  last_heard_ = {change.sequence, change.stamp, change.pallet.id};
   if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
   if (!change.pallet.sscc.empty() && !is_sscc(change.pallet.sscc)) {
     drops_.add(BridgeDrop::kLabel);
@@ -75,7 +75,7 @@ void Bridge::record_waiting() {
 /// @return false: there is no room
 bool Bridge::record(const Waiting& waiting) {
   const PalletChange& change = waiting.change;
-  const std::uint64_t before = store_->last_heard();
+  const std::uint64_t before = store_->last_heard().sequence;
   switch (store_->record(change, epcis_draft(params_.epcis, change), waiting.clock)) {
     case Recorded::kFull:
       return false;

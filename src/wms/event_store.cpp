@@ -181,11 +181,13 @@ void EventStore::load(const std::string& new_stream) {
     clock_offset_ = Duration(clock.getColumn(0).getInt64());
     clock_step_ = Duration(clock.getColumn(1).getInt64());
   }
-  Statement newest(sql_->database, "SELECT sequence, heard FROM event ORDER BY sequence DESC LIMIT 1");
+  Statement newest(sql_->database,
+                   "SELECT sequence, heard, stamp_ns, pallet FROM event ORDER BY sequence DESC LIMIT 1");
   last_ = acknowledged_;
   if (!newest.executeStep()) return;
   last_ = std::max(last_, unsigned_of(newest.getColumn(0)));
-  last_heard_ = unsigned_of(newest.getColumn(1));
+  last_heard_ = {unsigned_of(newest.getColumn(1)), Stamp(Duration(newest.getColumn(2).getInt64())),
+                 newest.getColumn(3).getString()};
 }
 
 /// One transaction. @return false: no room, nothing was changed
@@ -226,7 +228,7 @@ Recorded EventStore::record(const PalletChange& change, const std::string& draft
   if (full_) return Recorded::kFull;
   if (result == Recorded::kKnown) return result;
   ++last_;
-  last_heard_ = change.sequence;
+  last_heard_ = {change.sequence, change.stamp, change.pallet.id};
   return result;
 }
 

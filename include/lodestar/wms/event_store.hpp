@@ -34,6 +34,17 @@ enum class Recorded {
   kFull,   ///< no room, nothing was changed
 };
 
+/// What tells an event from every other: the tracker's own number comes again when its count begins anew.
+struct HeardEvent {
+  std::uint64_t sequence = 0;  ///< 0: none
+  Stamp stamp;
+  std::string pallet;
+
+  bool is(const PalletChange& change) const {
+    return sequence == change.sequence && stamp == change.stamp && pallet == change.pallet.id;
+  }
+};
+
 /// What the queue hands over.
 struct StoredDocument {
   std::uint64_t sequence = 0;
@@ -78,7 +89,7 @@ class EventStore {
   const std::string& stream() const { return stream_; }
   std::uint64_t last() const { return last_; }                  ///< sequence number of the newest event; 0: none
   std::uint64_t acknowledged() const { return acknowledged_; }  ///< the site has all up to here
-  std::uint64_t last_heard() const { return last_heard_; }      ///< the tracker's own number of the newest event
+  const HeardEvent& last_heard() const { return last_heard_; }  ///< the newest event
   bool full() const { return full_; }                           ///< new events find no room
 
   Recorded record(const PalletChange& change, const std::string& draft, const WallClock& clock = {});
@@ -118,7 +129,8 @@ class EventStore {
   StoreParams params_;
   std::unique_ptr<Sql> sql_;
   std::string stream_;
-  std::uint64_t last_ = 0, acknowledged_ = 0, last_heard_ = 0;
+  std::uint64_t last_ = 0, acknowledged_ = 0;
+  HeardEvent last_heard_;
   bool full_ = false;
   std::optional<Duration> clock_offset_;
   Duration clock_step_{};      ///< all steps of this boot together
