@@ -23,7 +23,7 @@ Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading
   open("");
   clock_ = ClockWatch(store_->clock_offset(), params_.clock_step);
   watch_clock(now);
-  store_->keep_clock_offset(now.offset());
+  store_->mark_clock_step(Duration::zero(), now.offset());
 }
 
 /// @param damage of the store in use; empty: none is known
@@ -47,7 +47,7 @@ void Bridge::with_store(const ClockReading& now, Job job) {
     ++store_faults_;
     open(error.what());
     tried_ = {};
-    store_->keep_clock_offset(now.offset());
+    store_->mark_clock_step(Duration::zero(), now.offset());
     if (brokers_.is_up()) greet(now);
   } catch (const std::exception& error) {
     ++store_faults_;
@@ -56,14 +56,15 @@ void Bridge::with_store(const ClockReading& now, Job job) {
 }
 
 void Bridge::take(PalletChange change, const ClockReading& now) {
-  last_heard_ = change.sequence;
+  last_heard_ = {change.sequence, change.stamp, change.pallet.id};
   if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
   if (!change.pallet.sscc.empty() && !is_sscc(change.pallet.sscc)) {
     drops_.add(BridgeDrop::kLabel);
     change.pallet.sscc.clear();
   }
+  if (change.kind != PalletChangeKind::kCorrection) change.corrects = 0;  // a pick or drop replaces nothing
   if (waiting_.size() >= params_.most_in_memory) return drops_.add(BridgeDrop::kLost);
-  waiting_.push_back({std::move(change), Duration::zero()});
+  waiting_.push_back({std::move(change), {now.synchronised, {}}});
   if (waiting_.size() == 1) with_store(now, [this] { record_waiting(); });
 }
 
@@ -74,8 +75,8 @@ void Bridge::record_waiting() {
 /// @return false: there is no room
 bool Bridge::record(const Waiting& waiting) {
   const PalletChange& change = waiting.change;
-  const std::uint64_t before = store_->last_heard();
-  switch (store_->record(change, epcis_draft(params_.epcis, change), waiting.clock_step)) {
+  const std::uint64_t before = store_->last_heard().sequence;
+  switch (store_->record(change, epcis_draft(params_.epcis, change), waiting.clock)) {
     case Recorded::kFull:
       return false;
     case Recorded::kKnown:
@@ -101,7 +102,7 @@ void Bridge::watch_clock(const ClockReading& now) {
   const auto step = clock_.step(now);
   if (!step) return;
   ++clock_steps_;
-  for (Waiting& waiting : waiting_) waiting.clock_step += *step;
+  for (Waiting& waiting : waiting_) waiting.clock.step += *step;
   with_store(now, [&] { store_->mark_clock_step(*step, now.offset()); });
 }
 
@@ -113,7 +114,7 @@ void Bridge::poll(const ClockReading& now) {
     store_->acknowledge(outbox_.acknowledged());
     if (!room && now.monotonic - tried_ < kBetweenTries) return;
     tried_ = now.monotonic;
-    store_->mark_clock_step(Duration::zero(), now.offset());
+    store_->keep_clock();
     record_waiting();
   });
   telemetry_.set_outbox_full(!waiting_.empty());
@@ -149,9 +150,8 @@ void Bridge::greet(const ClockReading& now) {
 void Bridge::send_due(const ClockReading& now) {
   const Batch due = outbox_.due(now.monotonic);
   if (due.count == 0) return;
-  const auto freeze = [&](const std::string& draft, std::uint64_t sequence, Duration clock_step,
-                          const std::string& corrected) {
-    return epcis_document(draft, {store_->stream(), sequence, now.wall, clock_step, corrected});
+  const auto freeze = [&](const StoredDraft& stored) {
+    return epcis_document(stored.draft, {store_->stream(), stored.sequence, now.wall, stored.clock, stored.told});
   };
   Batch sent{due.first, 0};
   for (const StoredDocument& stored : store_->documents(due.first, due.count, freeze)) {

@@ -1,7 +1,10 @@
 #include "lodestar/wms/epcis.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/wms/event_hash.hpp"
@@ -12,13 +15,13 @@ namespace lodestar {
 namespace {
 
 using nlohmann::json;
+using Keys = std::initializer_list<const char*>;
 
 const json kNamespaces = {{"lodestar", "https://lodestar.example/epcis/"}};
 constexpr char kContext[] = "https://ref.gs1.org/standards/epcis/2.0.0/epcis-context.jsonld";
 
+/// What is not UTF-8 in it is replaced.
 std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
-
-std::string utf8(const std::string& text) { return json::parse(text_of(text)).get<std::string>(); }
 
 /// To a tenth of a millimetre or milliradian: more is noise. Minus zero is zero.
 double rounded(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
@@ -64,10 +67,11 @@ json event(const EpcisParams& params, const PalletChange& change, const char* ty
     out["disposition"] = gone ? "in_transit" : in_doubt ? "unknown" : "in_progress";
     if (!gone) out["bizLocation"] = place(params, pallet);
   }
-  if (!pallet.type.empty()) out["lodestar:palletType"] = utf8(pallet.type);
-  if (!pallet.zone.empty() && !valid_gln_extension(pallet.zone)) out["lodestar:zone"] = utf8(pallet.zone);
+  if (!pallet.type.empty()) out["lodestar:palletType"] = pallet.type;
+  if (!pallet.zone.empty() && !valid_gln_extension(pallet.zone)) out["lodestar:zone"] = pallet.zone;
   for (const std::string& candidate : change.candidates)
     if (valid_uuid(candidate)) out["lodestar:candidate"].push_back(uuid_uri(candidate));
+  if (!change.reason.empty()) out["lodestar:reason"] = change.reason;
   return out;
 }
 
@@ -111,57 +115,154 @@ json observation(const EpcisParams& params, const PalletChange& change) {
   return out;
 }
 
-void identify(json& event, const HandOver& hand_over) {
-  if (hand_over.clock_step != Duration::zero()) {
-    event["lodestar:clock"] = "unsynchronised";
-    event["lodestar:clockStep_s"] = rounded(seconds(hand_over.clock_step));
-  }
-  event["eventID"] = event_hash_id(event, kNamespaces);
+/// The name of a pallet without a label means nothing any more: it is known to be another, or nobody knows where.
+json end_of_name(const EpcisParams& params, const PalletChange& change) {
+  json out = event(params, change, "ObjectEvent", "DELETE");
+  out["epcList"] = {pallet_uri(change.pallet)};
+  out["bizStep"] = "decommissioning";
+  out["disposition"] = "inactive";
+  return out;
 }
 
-/// The events of the corrected document, each called wrong; what was itself told again in it is left out.
-json declared_wrong(const HandOver& hand_over, const std::string& reason, const json& corrective_ids) {
-  json out = json::array();
-  if (hand_over.corrected.empty()) return out;
-  const json corrected = json::parse(hand_over.corrected);
-  for (json event : corrected.at("epcisBody").at("eventList")) {
-    if (event.contains("errorDeclaration")) continue;
-    event["errorDeclaration"] = {{"declarationTime", iso_time(hand_over.now)},
-                                 {"reason", "incorrect_data"},
-                                 {"correctiveEventIDs", corrective_ids}};
-    if (!reason.empty()) event["errorDeclaration"]["lodestar:reason"] = reason;
-    out.push_back(std::move(event));
+json correction(const EpcisParams& params, const PalletChange& change) {
+  const bool ended = change.pallet.state == PalletState::kGone && change.pallet.sscc.empty();
+  return ended ? end_of_name(params, change) : observation(params, change);
+}
+
+void identify(json& event) { event["eventID"] = event_hash_id(event, kNamespaces); }
+
+/// What was told and holds yet: what a later document declared wrong is gone from it.
+std::vector<json> in_force(const std::vector<std::string>& documents) {
+  std::vector<json> out;
+  for (const std::string& document : documents) {
+    const json whole = json::parse(document);
+    for (const json& event : whole.at("epcisBody").at("eventList")) {
+      const auto is_it = [&](const json& told) { return told["eventID"] == event["eventID"]; };
+      if (event.contains("errorDeclaration")) {
+        out.erase(std::remove_if(out.begin(), out.end(), is_it), out.end());
+      } else {
+        out.push_back(event);
+      }
+    }
   }
   return out;
+}
+
+/// As `better` has them; a key that it lacks goes.
+void copy(const Keys& keys, const json& better, json& event) {
+  for (const char* key : keys) {
+    event.erase(key);
+    if (better.contains(key)) event[key] = better[key];
+  }
+}
+
+/// The event with the right name of its pallet.
+json renamed(json event, const json& correction) {
+  event[event.contains("childEPCs") ? "childEPCs" : "epcList"] = correction["epcList"];
+  copy({"lodestar:pallet", "lodestar:palletType"}, correction, event);
+  return event;
+}
+
+/// ... and where it was set down.
+json moved(json event, const json& correction) {
+  copy({"readPoint", "bizLocation", "bizStep", "lodestar:zone"}, correction, event);
+  if (!event.contains("sensorElementList")) return event;
+  copy({"lodestar:level"}, correction, event);
+  event["sensorElementList"][0]["sensorReport"] = correction["sensorElementList"][0]["sensorReport"];
+  return event;
+}
+
+/// As certain as the correction is, of the place where that is the same, else of the name alone.
+void settle(const json& correction, bool stands, json& event) {
+  if (stands) copy({"disposition", "lodestar:state"}, correction, event);
+  if (!stands && event.contains("lodestar:candidate") && !correction.contains("lodestar:candidate")) {
+    const bool on_fork = event["bizStep"] == "transporting";
+    event["disposition"] = on_fork ? "in_transit" : "in_progress";
+    event["lodestar:state"] = name(on_fork ? PalletState::kOnFork : PalletState::kStanding);
+  }
+  copy({"lodestar:candidate"}, correction, event);
+}
+
+/// Where in what was told the pallet was last lifted or set down.
+struct LastMove {
+  std::size_t index = 0;
+  bool lifted = false;
+};
+LastMove last_move(const std::vector<json>& told) {
+  for (std::size_t i = told.size(); i-- > 0;)
+    if (told[i]["type"] == "AssociationEvent") return {i, told[i]["action"] == "ADD"};
+  return {};
+}
+
+/// Events that were wrong, and what is right in place of each. Being in doubt, or out of it, is no error of what was
+/// told; nor is it that a pallet is gone which was there.
+struct Correction {
+  json wrong = json::array(), right = json::array();
+};
+Correction correction_of(const std::vector<json>& told, const json& observed, Stamp now) {
+  Correction out;
+  if (observed["lodestar:state"] == name(PalletState::kGone)) return out;
+  const LastMove move = last_move(told);
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const bool stands = !move.lifted && i >= move.index && observed.contains("bizLocation");
+    json right = renamed(told[i], observed);
+    if (stands) right = moved(std::move(right), observed);
+    if (right == told[i]) continue;
+    settle(observed, stands, right);
+    right["lodestar:toldAnew"] = observed["eventTime"];  // what was declared wrong may become right again
+    identify(right);
+    json& wrong = out.wrong.emplace_back(told[i]);
+    wrong["errorDeclaration"] = {{"declarationTime", iso_time(now)},
+                                 {"reason", "incorrect_data"},
+                                 {"correctiveEventIDs", json::array({right["eventID"]})}};
+    copy({"lodestar:reason"}, observed, wrong["errorDeclaration"]);
+    out.right.push_back(std::move(right));
+  }
+  return out;
+}
+
+/// A pallet in doubt that the fork carries: only what was told before says that it does.
+void lift(json& event) {
+  event["bizStep"] = "transporting";
+  for (const char* key : {"bizLocation", "sensorElementList", "lodestar:level", "lodestar:coasting"}) event.erase(key);
+}
+
+void mark_clock(const HandOver& hand_over, json& event) {
+  const bool stepped = hand_over.clock.step != Duration::zero();
+  if (stepped || !hand_over.clock.synchronised) event["lodestar:clock"] = "unsynchronised";
+  if (stepped) event["lodestar:clockStep_s"] = rounded(seconds(hand_over.clock.step));
 }
 
 }  // namespace
 
 std::string epcis_draft(const EpcisParams& params, const PalletChange& change) {
-  json events = json::array();
   switch (change.kind) {
     case PalletChangeKind::kPick:
-      events = {association(params, change, "ADD")};
-      break;
+      return text_of(json::array({association(params, change, "ADD")}));
     case PalletChangeKind::kDrop:
-      events = {association(params, change, "DELETE"), observation(params, change)};
-      break;
+      return text_of(json::array({association(params, change, "DELETE"), observation(params, change)}));
     case PalletChangeKind::kCorrection:
-      events = {observation(params, change)};
-      break;
+      return text_of(json::array({correction(params, change)}));
   }
-  return text_of({{"events", events}, {"reason", utf8(change.reason)}});
+  return "[]";
 }
 
-std::string epcis_document(const std::string& draft_text, const HandOver& hand_over) {
-  const json draft = json::parse(draft_text);
-  json events = draft.at("events"), ids = json::array();
-  for (json& event : events) {
-    identify(event, hand_over);
-    ids.push_back(event["eventID"]);
+std::string epcis_document(const std::string& draft, const HandOver& hand_over) {
+  json list = json::array();
+  json events = json::parse(draft);
+  if (!hand_over.told.empty()) {
+    const std::vector<json> told = in_force(hand_over.told);
+    json& observed = events.back();
+    if (last_move(told).lifted && observed.contains("bizLocation")) lift(observed);
+    const Correction correction = correction_of(told, observed, hand_over.now);
+    list = correction.wrong;
+    list.insert(list.end(), correction.right.begin(), correction.right.end());
   }
-  json list = declared_wrong(hand_over, draft.at("reason"), ids);
-  list.insert(list.end(), events.begin(), events.end());
+  for (json& event : events) {
+    mark_clock(hand_over, event);
+    identify(event);
+    list.push_back(std::move(event));
+  }
   return text_of({{"@context", {kContext, kNamespaces}},
                   {"type", "EPCISDocument"},
                   {"schemaVersion", "2.0"},

@@ -41,7 +41,10 @@ int execute(Statement& statement, const Values&... values) {
   return statement.exec();
 }
 
+bool has_place(PalletState state) { return state == PalletState::kStanding || state == PalletState::kUncertain; }
+
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+std::int64_t ticks(Duration duration) { return static_cast<std::int64_t>(duration.count()); }
 std::uint64_t unsigned_of(const SQLite::Column& column) { return static_cast<std::uint64_t>(column.getInt64()); }
 
 void require_sound(SQLite::Database& database, const char* check) {
@@ -54,7 +57,9 @@ SQLite::Database open_database(const std::string& path) {
   require_sound(database, "PRAGMA quick_check(1)");
   database.exec("PRAGMA journal_mode = WAL");
   database.exec("PRAGMA synchronous = FULL");
-  database.exec("PRAGMA journal_size_limit = 1048576");
+  // Above what the log grows to between two checkpoints (4 MB): cut off each time, it would have to grow anew, and an
+  // fsync of a file that grew takes twice as long.
+  database.exec("PRAGMA journal_size_limit = 8388608");
   migrate(database);
   require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
@@ -74,25 +79,45 @@ struct EventStore::Sql {
            (error.getErrorCode() == SQLITE_IOERR && sqlite3_system_errno(database.getHandle()) == ENOSPC);
   }
 
+  struct RollBackAtEnd {
+    ~RollBackAtEnd() {
+      if (sqlite3_get_autocommit(sql.database.getHandle()) != 0) return;
+      sql.roll_back.tryReset();
+      sql.roll_back.tryExecuteStep();
+      sql.roll_back.tryReset();
+    }
+    Sql& sql;
+  };
+
   struct Row {
     StoredDocument stored;
-    bool frozen;
-    Duration clock_step;
-    std::uint64_t corrects;
-    std::string boot;
+    bool frozen, corrects;
+    WallClock clock;
   };
-  std::vector<Row> rows(std::uint64_t first, std::size_t most) {
+  /// @param boot_step of the clock in this boot, as it may not be written yet
+  std::vector<Row> rows(std::uint64_t first, std::size_t most, const std::string& boot, Duration boot_step) {
     get_events.tryReset();
     get_events.bind(1, signed_of(first));
     get_events.bind(2, static_cast<std::int64_t>(most));
+    get_events.bind(3, boot);
+    get_events.bind(4, ticks(boot_step));
     std::vector<Row> out;
     while (get_events.executeStep())
       out.push_back({{unsigned_of(get_events.getColumn(0)), get_events.getColumn(1).getString()},
                      get_events.getColumn(2).getInt() != 0,
-                     Duration(get_events.getColumn(3).getInt64()),
-                     unsigned_of(get_events.getColumn(4)),
-                     get_events.getColumn(5).getString()});
+                     get_events.getColumn(3).getInt64() > 0,
+                     {get_events.getColumn(4).getInt() != 0, Duration(get_events.getColumn(5).getInt64())}});
     get_events.tryReset();
+    return out;
+  }
+
+  /// All that is frozen of the pallet that a correction corrects, and of the one that it is told of.
+  std::vector<std::string> told_of_the_corrected(std::uint64_t sequence) {
+    get_told.tryReset();
+    get_told.bind(1, signed_of(sequence));
+    std::vector<std::string> out;
+    while (get_told.executeStep()) out.push_back(get_told.getColumn(0).getString());
+    get_told.tryReset();
     return out;
   }
 
@@ -105,25 +130,34 @@ struct EventStore::Sql {
 
   SQLite::Database database;
   Ballast ballast;
+  Statement begin{database, "BEGIN"}, commit{database, "COMMIT"}, roll_back{database, "ROLLBACK"};
   Statement put_meta{database, "INSERT INTO meta VALUES(?, ?) ON CONFLICT(key) DO UPDATE SET value = excluded.value"};
-  Statement put_event{database,
-                      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot, clock_step_ns)"
-                      " VALUES(?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
+  Statement put_event{
+      database,
+      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot, clock_step_ns,"
+      " synchronised) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
   Statement put_pallet{database,
                        "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                        " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
-                       " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence RETURNING key"};
-  Statement drop_place{database, "DELETE FROM place WHERE key = ?"};
-  Statement put_place{database, "INSERT INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
+                       " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence"};
+  Statement drop_pallet{database, "DELETE FROM pallet WHERE id = ?"};
+  Statement drop_place{database, "DELETE FROM place WHERE key = (SELECT key FROM pallet WHERE id = ?)"};
+  Statement put_place{database, "REPLACE INTO place SELECT key, ?2, ?2, ?3, ?3, ?4, ?4 FROM pallet WHERE id = ?1"};
   Statement get_events{database,
-                       "SELECT sequence, document, frozen, clock_step_ns, corrects, boot FROM event WHERE sequence >= ?"
-                       " ORDER BY sequence LIMIT ?"};
+                       "SELECT sequence, document, frozen, corrects, synchronised,"
+                       " clock_step_ns + CASE boot WHEN ?3 THEN ?4 ELSE IFNULL(step_ns, 0) END"
+                       " FROM event LEFT JOIN clock USING(boot) WHERE sequence >= ?1 ORDER BY sequence LIMIT ?2"};
   Statement freeze_event{database, "UPDATE event SET document = ?, frozen = 1 WHERE sequence = ?"};
-  Statement get_corrected{database,
-                          "SELECT document FROM event WHERE heard = ? AND sequence < ? AND frozen = 1"
-                          " ORDER BY sequence DESC LIMIT 1"};
+  Statement get_told{
+      database,
+      "SELECT document FROM event INDEXED BY event_pallet WHERE sequence < ?1 AND frozen = 1 AND pallet IN("
+      "(SELECT pallet FROM event WHERE sequence = ?1),"
+      "(SELECT told.pallet FROM event AS told JOIN event AS correction ON told.heard = correction.corrects"
+      " WHERE correction.sequence = ?1 AND told.sequence < ?1 ORDER BY told.sequence DESC LIMIT 1))"
+      " ORDER BY sequence"};
   Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
-  Statement mark_events{database, "UPDATE event SET clock_step_ns = clock_step_ns + ? WHERE frozen = 0 AND boot = ?"};
+  Statement put_clock{database, "REPLACE INTO clock VALUES(?, ?, ?)"};
+  Statement forget_clocks{database, "DELETE FROM clock WHERE boot <> ?"};
 };
 
 EventStore::EventStore(const StoreParams& params, const std::string& new_stream) : params_(params) {
@@ -141,11 +175,19 @@ void EventStore::load(const std::string& new_stream) {
   if (!stream) execute(sql_->put_meta, "stream", new_stream);
   stream_ = stream.value_or(new_stream);
   acknowledged_ = std::stoull(sql_->meta("acknowledged").value_or("0"));
-  Statement newest(sql_->database, "SELECT sequence, heard FROM event ORDER BY sequence DESC LIMIT 1");
+  Statement clock(sql_->database, "SELECT offset_ns, step_ns FROM clock WHERE boot = ?");
+  clock.bind(1, params_.boot);
+  if (clock.executeStep()) {
+    clock_offset_ = Duration(clock.getColumn(0).getInt64());
+    clock_step_ = Duration(clock.getColumn(1).getInt64());
+  }
+  Statement newest(sql_->database,
+                   "SELECT sequence, heard, stamp_ns, pallet FROM event ORDER BY sequence DESC LIMIT 1");
   last_ = acknowledged_;
   if (!newest.executeStep()) return;
   last_ = std::max(last_, unsigned_of(newest.getColumn(0)));
-  last_heard_ = unsigned_of(newest.getColumn(1));
+  last_heard_ = {unsigned_of(newest.getColumn(1)), Stamp(Duration(newest.getColumn(2).getInt64())),
+                 newest.getColumn(3).getString()};
 }
 
 /// One transaction. @return false: no room, nothing was changed
@@ -153,9 +195,10 @@ template <class Job>
 bool EventStore::run(Job job) {
   return checked([&] {
     try {
-      SQLite::Transaction transaction(sql_->database);
+      const Sql::RollBackAtEnd unless_committed{*sql_};
+      execute(sql_->begin);
       job();
-      transaction.commit();
+      execute(sql_->commit);
       return true;
     } catch (const SQLite::Exception& error) {
       if (!sql_->out_of_room(error)) throw;
@@ -177,47 +220,41 @@ bool EventStore::run_with_reserve(Job job) {
   return done;
 }
 
-Recorded EventStore::record(const PalletChange& change, const std::string& draft, Duration clock_step) {
+Recorded EventStore::record(const PalletChange& change, const std::string& draft, const WallClock& clock) {
   Recorded result = Recorded::kNew;
-  const auto job = [&] { result = insert(change, draft, clock_step); };
+  const auto job = [&] { result = insert(change, draft, clock); };
   // Without ballast there is only the room that emptying the queue needs.
-  full_ = !mark_pending_step() || (!(sql_->ballast.hold() && run(job)) && !(make_room() && run(job)));
+  full_ = !keep_clock() || (!(sql_->ballast.hold() && run(job)) && !(make_room() && run(job)));
   if (full_) return Recorded::kFull;
   if (result == Recorded::kKnown) return result;
   ++last_;
-  last_heard_ = change.sequence;
+  last_heard_ = {change.sequence, change.stamp, change.pallet.id};
   return result;
 }
 
-Recorded EventStore::insert(const PalletChange& change, const std::string& draft, Duration clock_step) {
-  const int inserted =
-      execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
-              static_cast<std::int64_t>(change.stamp.time_since_epoch().count()), change.pallet.id,
-              signed_of(change.corrects), draft, params_.boot, static_cast<std::int64_t>(clock_step.count()));
+Recorded EventStore::insert(const PalletChange& change, const std::string& draft, const WallClock& clock) {
+  const int inserted = execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
+                               ticks(change.stamp.time_since_epoch()), change.pallet.id, signed_of(change.corrects),
+                               draft, params_.boot, ticks(clock.step - clock_step_), clock.synchronised ? 1 : 0);
   if (inserted == 0) return Recorded::kKnown;
   put_pallet(change);
   return Recorded::kNew;
 }
 
+/// A lift leaves the old place where it is: the state says that the pallet does not stand there.
 void EventStore::put_pallet(const PalletChange& change) {
   const Pallet& pallet = change.pallet;
-  Statement& put = sql_->put_pallet;
-  put.tryReset();
-  put.bind(1, pallet.id);
-  put.bind(2, pallet.sscc);
-  put.bind(3, static_cast<int>(pallet.state));
-  put.bind(4, pallet.zone);
-  put.bind(5, pallet.level);
-  put.bind(6, signed_of(last_ + 1));
-  put.executeStep();
-  const std::int64_t key = put.getColumn(0).getInt64();
-  while (put.executeStep()) {
-  }
-  put.tryReset();
-  execute(sql_->drop_place, key);
-  if (pallet.state != PalletState::kStanding && pallet.state != PalletState::kUncertain) return;
+  if (pallet.state == PalletState::kGone) return forget_pallet(pallet.id);
+  execute(sql_->put_pallet, pallet.id, pallet.sscc, static_cast<int>(pallet.state), pallet.zone, pallet.level,
+          signed_of(last_ + 1));
+  if (!has_place(pallet.state)) return;
   const auto p = pallet.T_map_pallet.translation();
-  execute(sql_->put_place, key, p.x(), p.x(), p.y(), p.y(), p.z(), p.z());
+  execute(sql_->put_place, pallet.id, p.x(), p.y(), p.z());
+}
+
+void EventStore::forget_pallet(const std::string& id) {
+  execute(sql_->drop_place, id);
+  execute(sql_->drop_pallet, id);
 }
 
 /// History is the only thing that may go. @return whether there is a point in trying again
@@ -229,33 +266,22 @@ bool EventStore::make_room() {
 }
 
 std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
-  const std::vector<Sql::Row> rows = checked([&] { return sql_->rows(first, most); });
+  const std::vector<Sql::Row> rows = checked([&] { return sql_->rows(first, most, params_.boot, clock_step_); });
   std::vector<StoredDocument> out;
   for (const Sql::Row& row : rows) out.push_back(row.stored);
   if (std::all_of(rows.begin(), rows.end(), [](const Sql::Row& row) { return row.frozen; })) return out;
   const bool done = run_with_reserve([&] {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].frozen) continue;
-      const StoredDocument& draft = rows[i].stored;
-      const Duration pending = rows[i].boot == params_.boot ? pending_step_ : Duration::zero();
-      out[i].document = freeze(draft.document, draft.sequence, rows[i].clock_step + pending,
-                               corrected_document(rows[i].corrects, draft.sequence));
-      execute(sql_->freeze_event, out[i].document, signed_of(draft.sequence));
+      const auto& [sequence, draft] = rows[i].stored;
+      StoredDraft whole{sequence, draft, rows[i].clock, {}};
+      if (rows[i].corrects) whole.told = sql_->told_of_the_corrected(sequence);
+      out[i].document = freeze(whole);
+      execute(sql_->freeze_event, out[i].document, signed_of(sequence));
     }
   });
   if (!done) out.clear();
   return out;
-}
-
-std::string EventStore::corrected_document(std::uint64_t heard, std::uint64_t before) {
-  if (heard == 0) return "";
-  Statement& get = sql_->get_corrected;
-  get.tryReset();
-  get.bind(1, signed_of(heard));
-  get.bind(2, signed_of(before));
-  const std::string document = get.executeStep() ? get.getColumn(0).getString() : "";
-  get.tryReset();
-  return document;
 }
 
 bool EventStore::acknowledge(std::uint64_t sequence) {
@@ -264,6 +290,7 @@ bool EventStore::acknowledge(std::uint64_t sequence) {
   const bool done = run_with_reserve([&] {
     execute(sql_->put_meta, "acknowledged", std::to_string(sequence));
     if (forgotten > 0) execute(sql_->forget_events, signed_of(forgotten));
+    if (sequence == last_) execute(sql_->forget_clocks, params_.boot);
   });
   if (!done) return false;
   acknowledged_ = sequence;
@@ -272,34 +299,17 @@ bool EventStore::acknowledge(std::uint64_t sequence) {
 }
 
 bool EventStore::mark_clock_step(Duration step, Duration offset) {
-  pending_step_ += step;
-  pending_offset_ = offset;
-  return mark_pending_step();
+  clock_step_ += step;
+  clock_offset_ = offset;
+  clock_is_kept_ = false;
+  return keep_clock();
 }
 
-bool EventStore::mark_pending_step() {
-  if (pending_step_ == Duration::zero()) return true;
-  const bool done = run_with_reserve([&] {
-    execute(sql_->mark_events, static_cast<std::int64_t>(pending_step_.count()), params_.boot);
-    put_clock_offset(pending_offset_);
-  });
-  if (done) pending_step_ = Duration::zero();
-  return done;
-}
-
-std::optional<Duration> EventStore::clock_offset() const {
-  const auto offset = sql_->meta("clock_offset:" + params_.boot);
-  if (!offset) return std::nullopt;
-  return Duration(std::stoll(*offset));
-}
-
-void EventStore::keep_clock_offset(Duration offset) {
-  run_with_reserve([&] { put_clock_offset(offset); });
-}
-
-void EventStore::put_clock_offset(Duration offset) {
-  sql_->database.exec("DELETE FROM meta WHERE key LIKE 'clock_offset:%'");
-  execute(sql_->put_meta, "clock_offset:" + params_.boot, std::to_string(offset.count()));
+bool EventStore::keep_clock() {
+  if (clock_is_kept_) return true;
+  clock_is_kept_ =
+      run_with_reserve([&] { execute(sql_->put_clock, params_.boot, ticks(*clock_offset_), ticks(clock_step_)); });
+  return clock_is_kept_;
 }
 
 std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {
@@ -307,7 +317,8 @@ std::vector<StoredPallet> EventStore::pallets_in(const MapBox& box) {
     Statement get(sql_->database,
                   "SELECT id, sscc, zone, state, level, sequence FROM place JOIN pallet USING(key)"
                   " WHERE high_x >= ? AND low_x <= ? AND high_y >= ? AND low_y <= ? AND high_z >= ? AND low_z <= ?"
-                  " ORDER BY id");
+                  " AND state <> ? ORDER BY id");
+    get.bind(7, static_cast<int>(PalletState::kOnFork));
     for (int axis = 0; axis < 3; ++axis) {
       get.bind(2 * axis + 1, box.low_m[axis]);
       get.bind(2 * axis + 2, box.high_m[axis]);

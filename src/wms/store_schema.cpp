@@ -24,7 +24,12 @@ const char* const kMigrations[] = {
        CREATE VIRTUAL TABLE place USING rtree(key, low_x, high_x, low_y, high_y, low_z, high_z);)",
     // A clock that was set.
     R"(ALTER TABLE event ADD COLUMN boot TEXT NOT NULL DEFAULT '';
-       ALTER TABLE event ADD COLUMN clock_step_ns INTEGER NOT NULL DEFAULT 0;)"};
+       ALTER TABLE event ADD COLUMN clock_step_ns INTEGER NOT NULL DEFAULT 0;)",
+    // What a step of the clock writes is as small with many events as with few: it has to find room when nothing else
+    // does. An event was set wrong by its own clock_step_ns and its boot's.
+    R"(ALTER TABLE event ADD COLUMN synchronised INTEGER NOT NULL DEFAULT 1;
+       CREATE TABLE clock(boot TEXT PRIMARY KEY, offset_ns INTEGER NOT NULL, step_ns INTEGER NOT NULL) WITHOUT ROWID;
+       CREATE INDEX event_pallet ON event(pallet);)"};
 
 }  // namespace
 

@@ -236,7 +236,22 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   EXPECT_EQ(event(7).pallet.zone, "B");
   correct.sscc = "123";
   EXPECT_FALSE(call<CorrectPallet>("/pallets/correct", correct).success);
+  correct.sscc.clear();
+  correct.place = "A/1/2";
+  EXPECT_FALSE(call<CorrectPallet>("/pallets/correct", correct).success) << "a pose and a place";
+  correct.has_pose = false;
+  correct.place = "A/99/1";
+  EXPECT_FALSE(call<CorrectPallet>("/pallets/correct", correct).success) << "no such place";
   EXPECT_EQ(events_.size(), 7u);
+  correct.place = "A/1/2";
+  EXPECT_TRUE(call<CorrectPallet>("/pallets/correct", correct).success);
+  EXPECT_EQ(event(8).pallet.zone, "A");
+  EXPECT_EQ(get(first).place, "A/1/2");
+  find = FindPallets::Request();
+  find.zone = "A/1/2";
+  EXPECT_EQ(call<FindPallets>("/pallets/find", find).pallets.size(), 1u);
+  find.zone = "A/1/1";
+  EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty());
 }
 
 TEST_F(PalletTracking, CountsBadInputAndGoesOn) {

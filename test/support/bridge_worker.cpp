@@ -20,8 +20,8 @@ int main(int argc, char** argv) {
   MqttLink link(test::mqtt("truck7", brokers));
   Bridge bridge(params, link, test::clocks());
   for (;;) {
-    for (int i = 0; i < 20 && bridge.store().last_heard() < events; ++i)
-      bridge.take(test::change(bridge.store().last_heard() + 1), test::clocks());
+    for (int i = 0; i < 20 && bridge.store().last_heard().sequence < events; ++i)
+      bridge.take(test::change(bridge.store().last_heard().sequence + 1), test::clocks());
     bridge.poll(test::clocks());
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

@@ -68,8 +68,8 @@ class Bridge {
   std::size_t in_memory() const { return waiting_.size(); }  ///< heard, not recorded: the store has no room
   const DropCounts<BridgeDrop>& drops() const { return drops_; }
   const HeardCounts& heard() const { return heard_; }
-  /// The tracker's number of the event that was taken last, in this life or an earlier one; 0: none.
-  std::uint64_t last_heard() const { return last_heard_; }
+  /// The event that was taken last, in this life or an earlier one.
+  const HeardEvent& last_heard() const { return last_heard_; }
   std::uint64_t clock_steps() const { return clock_steps_; }
   std::uint64_t store_faults() const { return store_faults_; }
   const std::string& store_fault() const { return store_fault_; }  ///< the last one; empty: none
@@ -83,7 +83,7 @@ class Bridge {
   void record_waiting();
   struct Waiting {
     PalletChange change;
-    Duration clock_step{};  ///< by which the wall clock was set since
+    WallClock clock;
   };
   bool record(const Waiting& waiting);
   void count_heard(std::uint64_t before, std::uint64_t sequence);
@@ -103,7 +103,7 @@ class Bridge {
   Instant tried_{};  ///< when they were last offered to the store
   DropCounts<BridgeDrop> drops_;
   HeardCounts heard_;
-  std::uint64_t last_heard_ = 0;
+  HeardEvent last_heard_;
   std::uint64_t connections_ = 0, clock_steps_ = 0, store_faults_ = 0;
   std::string last_failure_, store_fault_, set_aside_;
 };

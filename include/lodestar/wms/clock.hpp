@@ -14,8 +14,15 @@ using Instant = std::chrono::time_point<std::chrono::steady_clock, Duration>;
 struct ClockReading {
   Stamp wall;
   Instant monotonic;
+  bool synchronised = true;  ///< somebody, such as NTP, keeps the wall clock right
 
   Duration offset() const { return wall.time_since_epoch() - monotonic.time_since_epoch(); }
+};
+
+/// How right the wall clock was that an event was stamped by.
+struct WallClock {
+  bool synchronised = true;  ///< somebody kept it right
+  Duration step{};           ///< by which it was set since
 };
 
 /// Notices that the wall clock was set. Being slewed to the right time, as NTP does when little is wrong, is no step.

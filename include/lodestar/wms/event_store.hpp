@@ -10,6 +10,7 @@
 
 #include "lodestar/base/common/stamp.hpp"
 #include "lodestar/base/measurement/pallet.hpp"
+#include "lodestar/wms/clock.hpp"
 
 namespace lodestar {
 
@@ -33,13 +34,32 @@ enum class Recorded {
   kFull,   ///< no room, nothing was changed
 };
 
+/// What tells an event from every other: the tracker's own number comes again when its count begins anew.
+struct HeardEvent {
+  std::uint64_t sequence = 0;  ///< 0: none
+  Stamp stamp;
+  std::string pallet;
+
+  bool is(const PalletChange& change) const {
+    return sequence == change.sequence && stamp == change.stamp && pallet == change.pallet.id;
+  }
+};
+
 /// What the queue hands over.
 struct StoredDocument {
   std::uint64_t sequence = 0;
   std::string document;
 };
 
-/// A pallet as the last event left it.
+/// What it is made of when it is handed over for the first time.
+struct StoredDraft {
+  std::uint64_t sequence = 0;
+  std::string draft;
+  WallClock clock;
+  std::vector<std::string> told;  ///< of a correction: the documents about its pallet that are known, oldest first
+};
+
+/// A pallet on the site as the last event left it.
 struct StoredPallet {
   std::string id, sscc, zone;
   PalletState state = PalletState::kStanding;
@@ -58,9 +78,8 @@ struct MapBox {
 /// is never deleted. A call that throws, or says that there is no room, has changed nothing.
 class EventStore {
  public:
-  /// Makes the final document of a draft, with the sequence number that it goes by.
-  using Freeze = std::function<std::string(const std::string& draft, std::uint64_t sequence, Duration clock_step,
-                                           const std::string& corrected_document)>;
+  /// Makes the final document of a draft.
+  using Freeze = std::function<std::string(const StoredDraft&)>;
 
   /// Throws StoreCorrupt, or SQLite::Exception where the file cannot be used for another reason, such as that a newer
   /// version of this program wrote it. @param new_stream UUID for the numbers of a new file
@@ -70,11 +89,10 @@ class EventStore {
   const std::string& stream() const { return stream_; }
   std::uint64_t last() const { return last_; }                  ///< sequence number of the newest event; 0: none
   std::uint64_t acknowledged() const { return acknowledged_; }  ///< the site has all up to here
-  std::uint64_t last_heard() const { return last_heard_; }      ///< the tracker's own number of the newest event
+  const HeardEvent& last_heard() const { return last_heard_; }  ///< the newest event
   bool full() const { return full_; }                           ///< new events find no room
 
-  /// @param clock_step by how much the wall clock was set since the change's stamp
-  Recorded record(const PalletChange& change, const std::string& draft, Duration clock_step = Duration::zero());
+  Recorded record(const PalletChange& change, const std::string& draft, const WallClock& clock = {});
 
   /// Documents from sequence number `first` on. One that is handed over for the first time is frozen before: durable,
   /// and the same octets ever after. Fewer than there are, or none, when there is no room to freeze them.
@@ -84,25 +102,24 @@ class EventStore {
   /// @return false: not even the reserve had room
   bool acknowledge(std::uint64_t sequence);
 
-  /// The wall clock was set by `step`: what this boot recorded and nobody has yet been handed bears the mark, and
-  /// `offset` is kept. Where that finds no room, or throws, the step is not forgotten: documents() counts it in,
-  /// record() takes nothing new before it is durable, and each later call, with a step of zero too, tries again.
-  /// @return false: there was no room
+  /// The wall clock was set by `step`, and is `offset` ahead of the monotonic one now: what this boot recorded and
+  /// nobody has yet been handed bears the mark. It takes up no page of the file. Where it cannot be written all the
+  /// same, as on a disk without a free block, it is not forgotten while this lives: documents() counts it in, and
+  /// record() takes nothing before it is durable. @return false: there was no room
   bool mark_clock_step(Duration step, Duration offset);
+  /// Tries again to write what mark_clock_step() could not.
+  bool keep_clock();
   /// Wall minus monotonic clock as last kept for this boot.
-  std::optional<Duration> clock_offset() const;
-  void keep_clock_offset(Duration offset);
+  std::optional<Duration> clock_offset() const { return clock_offset_; }
 
   std::vector<StoredPallet> pallets_in(const MapBox& box);
 
  private:
   struct Sql;
   void load(const std::string& new_stream);
-  Recorded insert(const PalletChange& change, const std::string& draft, Duration clock_step);
-  bool mark_pending_step();
-  void put_clock_offset(Duration offset);
+  Recorded insert(const PalletChange& change, const std::string& draft, const WallClock& clock);
   void put_pallet(const PalletChange& change);
-  std::string corrected_document(std::uint64_t heard, std::uint64_t before);
+  void forget_pallet(const std::string& id);
   bool make_room();
   template <class Job>
   bool run(Job job);
@@ -112,9 +129,12 @@ class EventStore {
   StoreParams params_;
   std::unique_ptr<Sql> sql_;
   std::string stream_;
-  std::uint64_t last_ = 0, acknowledged_ = 0, last_heard_ = 0;
+  std::uint64_t last_ = 0, acknowledged_ = 0;
+  HeardEvent last_heard_;
   bool full_ = false;
-  Duration pending_step_{}, pending_offset_{};  ///< of a clock that was set, not yet durable
+  std::optional<Duration> clock_offset_;
+  Duration clock_step_{};      ///< all steps of this boot together
+  bool clock_is_kept_ = true;  ///< the file has them both
 };
 
 /// A store, and what had to be done to get it.

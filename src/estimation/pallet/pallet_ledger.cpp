@@ -110,6 +110,7 @@ void PalletLedger::merge(const std::string& id, const std::string& into, PalletS
   write(std::move(change));
 
   Pallet ended = told.pallet;
+  ended.sscc.clear();  // the label is that of the one that stays
   ended.state = PalletState::kGone;
   ended.changed = stamp;
   amend(ended, stamp, {}, reason);

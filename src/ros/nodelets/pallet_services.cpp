@@ -14,11 +14,24 @@ bool begins(const std::string& text, const std::string& beginning) {
   return text.compare(0, beginning.size(), beginning) == 0;
 }
 
+/// Its storage code; empty where it stands in no zone, or not at all.
+std::string place_of(const Pallet& pallet, const std::vector<Zone>& zones) {
+  const bool here = pallet.state == PalletState::kStanding || pallet.state == PalletState::kUncertain;
+  return here && !pallet.zone.empty() ? storage_code(zones, pallet.T_map_pallet.translation()) : "";
+}
+
+RigidTransform pose_of(const Place& place) {
+  RigidTransform T_map_pallet = RigidTransform::Identity();
+  T_map_pallet.translation() = place.position_map;
+  T_map_pallet.linear() = rotation({0, 0, place.yaw_rad});
+  return T_map_pallet;
+}
+
 /// Whether the pallet is one of those that the request asks for, but for the area.
-bool matches(const Pallet& pallet, const FindPallets::Request& request) {
+bool matches(const Pallet& pallet, const FindPallets::Request& request, const std::vector<Zone>& zones) {
   if (pallet.state == PalletState::kGone && !request.gone) return false;
   if (!begins(pallet.id, request.id) && !begins(pallet.sscc, request.id)) return false;
-  if (!request.zone.empty() && pallet.zone != request.zone) return false;
+  if (!request.zone.empty() && pallet.zone != request.zone && place_of(pallet, zones) != request.zone) return false;
   if (!request.since.isZero() && pallet.changed < stamp_from(request.since)) return false;
   return request.until.isZero() || pallet.changed <= stamp_from(request.until);
 }
@@ -29,8 +42,9 @@ FloorPolygon polygon_from(const geometry_msgs::Polygon& message) {
   return polygon;
 }
 
-/// Empty, with the reason in `why`, where the request tells a pose that is none.
-std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& request, std::string& why) {
+/// Empty, with the reason in `why`, where the request tells a pose or place that is none.
+std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& request, const std::vector<Zone>& zones,
+                                                std::string& why) {
   PalletCorrection correction;
   correction.stamp = stamp_from(ros::Time::now());
   correction.id = request.id;
@@ -39,17 +53,22 @@ std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& re
   correction.type = request.type;
   correction.gone = request.gone;
   correction.reason = request.reason;
-  if (!request.has_pose) return correction;
-  const auto T_map_pallet = transform_from(request.pose);
+  if (!request.has_pose && request.place.empty()) return correction;
+  const auto told = transform_from(request.pose);
+  const auto place = find_place(zones, request.place);
   const double m = request.position_sigma_m, rad = request.yaw_sigma_rad;
-  const bool sure = std::isfinite(m) && std::isfinite(rad) && m > 0 && rad > 0;
-  if (!T_map_pallet || !sure) {
-    why = T_map_pallet ? "position_sigma_m and yaw_sigma_rad have to be above 0"
-                       : std::string("the pose is none: ") + name(T_map_pallet.error());
-    return std::nullopt;
+  if (request.has_pose && !request.place.empty()) {
+    why = "give a pose or a place";
+  } else if (request.has_pose && !told) {
+    why = std::string("the pose is none: ") + name(told.error());
+  } else if (!request.has_pose && !place) {
+    why = "no zone's grid has the place '" + request.place + "'";
+  } else if (!(std::isfinite(m) && std::isfinite(rad) && m > 0 && rad > 0)) {
+    why = "position_sigma_m and yaw_sigma_rad have to be above 0";
   }
+  if (!why.empty()) return std::nullopt;
   PalletPose& pose = correction.pose.emplace();
-  pose.T_map_pallet = *T_map_pallet;
+  pose.T_map_pallet = place ? pose_of(*place) : *told;
   pose.covariance.diagonal() << m * m, m * m, m * m, rad * rad, rad * rad, rad * rad;
   return correction;
 }
@@ -73,9 +92,7 @@ bool PalletServices::get(GetPallet::Request& request, GetPallet::Response& respo
   if (last == nullptr) return true;
   for (const Pallet& pallet : tracker_.now())
     if (pallet.id == last->pallet.id) response.pallet = pallet_message(pallet);
-  const bool here = last->pallet.state == PalletState::kStanding || last->pallet.state == PalletState::kUncertain;
-  if (here && !last->pallet.zone.empty())
-    response.place = storage_code(site_.zones, last->pallet.T_map_pallet.translation());
+  response.place = place_of(last->pallet, site_.zones);
   response.candidates = last->candidates;
   response.sequence = last->sequence;
   return true;
@@ -90,13 +107,13 @@ bool PalletServices::find(FindPallets::Request& request, FindPallets::Response& 
   }
   for (const Pallet& pallet : tracker_.now()) {
     const bool inside = area.empty() || contains(area, pallet.T_map_pallet.translation().head<2>());
-    if (inside && matches(pallet, request)) response.pallets.push_back(pallet_message(pallet));
+    if (inside && matches(pallet, request, site_.zones)) response.pallets.push_back(pallet_message(pallet));
   }
   return true;
 }
 
 bool PalletServices::correct(CorrectPallet::Request& request, CorrectPallet::Response& response) {
-  const auto correction = correction_from(request, response.message);
+  const auto correction = correction_from(request, site_.zones, response.message);
   if (!correction) return true;
   const auto changes = tracker_.correct(*correction);
   response.success = changes.ok();
@@ -122,11 +139,8 @@ bool PalletServices::free(FreePlaces::Request& request, FreePlaces::Response& re
     response.success = true;
     for (const Place& place :
          free_places(*zone, map.size(request.type.empty() ? zone->pallet_type : request.type), map)) {
-      RigidTransform T_map_pallet = RigidTransform::Identity();
-      T_map_pallet.translation() = place.position_map;
-      T_map_pallet.linear() = rotation({0, 0, place.yaw_rad});
       response.codes.push_back(place.code);
-      response.poses.push_back(pose_message(T_map_pallet));
+      response.poses.push_back(pose_message(pose_of(place)));
     }
   }
   return true;

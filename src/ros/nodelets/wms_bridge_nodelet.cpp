@@ -1,7 +1,9 @@
 #include "lodestar/ros/nodelets/wms_bridge_nodelet.hpp"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <sys/timex.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <pluginlib/class_list_macros.hpp>
@@ -26,7 +28,16 @@ Instant since_boot() {
   return Instant(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
 }
 
-ClockReading clocks() { return {Stamp(std::chrono::system_clock::now().time_since_epoch()), since_boot()}; }
+/// What NTP and PTP services tell the kernel. The events' own clock may be a simulation's or a bag's, which is never
+/// wrong.
+bool synchronised() {
+  timex state{};
+  return ros::Time::isSimTime() || (adjtimex(&state) >= 0 && (state.status & STA_UNSYNC) == 0);
+}
+
+ClockReading clocks() {
+  return {Stamp(std::chrono::system_clock::now().time_since_epoch()), since_boot(), synchronised()};
+}
 
 }  // namespace
 
@@ -54,13 +65,13 @@ void WmsBridgeNodelet::onInit() {
   integrity_ = nh.subscribe("pose/integrity", 10, &WmsBridgeNodelet::take_integrity, this);
   battery_ = nh.subscribe("battery", 1, &WmsBridgeNodelet::take_battery, this);
   events_after_ = nh.serviceClient<PalletEventsAfter>("pallets/events_after");
-  catch_up_ = nh.createWallTimer(ros::WallDuration(kCatchUpPeriod_s), [this](const ros::WallTimerEvent&) {
-    const std::uint64_t heard = bridge_->last_heard();
-    if (told_ > heard) ask_for_missed(heard);
-    if (0 < told_ && told_ < heard) ask_for_missed(0);  // tracking began anew
+  watch_ = nh.createWallTimer(ros::WallDuration(kCatchUpPeriod_s), [this](const ros::WallTimerEvent&) {
+    if (told_ > 0 && (!same_count_ || told_ != bridge_->last_heard().sequence)) catch_up();
   });
-  poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s),
-                             [this](const ros::WallTimerEvent&) { bridge_->poll(clocks()); });
+  poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s), [this](const ros::WallTimerEvent&) {
+    bridge_->poll(clocks());
+    if (events_.getNumPublishers() == 0) same_count_ = false;
+  });
 }
 
 WmsBridgeNodelet::~WmsBridgeNodelet() {
@@ -69,9 +80,9 @@ WmsBridgeNodelet::~WmsBridgeNodelet() {
 
 void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
   events_watch_->tick();
-  const bool gap = message->sequence > bridge_->last_heard() + 1;
-  if (gap) ask_for_missed(bridge_->last_heard());
-  if (gap && bridge_->last_heard() >= message->sequence) return;  // it was among them
+  if (!same_count_ || message->sequence != bridge_->last_heard().sequence + 1) catch_up();
+  const auto change = pallet_change_from(*message, map_frame_);
+  if (change && bridge_->last_heard().is(*change)) return;  // it was among them
   record(*message);
 }
 
@@ -83,12 +94,24 @@ void WmsBridgeNodelet::record(const PalletEvent& message) {
   bridge_->take(std::move(change).value(), clocks());
 }
 
-/// What was told while nobody listened, or written down by a node that died before it told it.
-void WmsBridgeNodelet::ask_for_missed(std::uint64_t after) {
+/// What was told while nobody listened, or written down by a node that died before it told it. It asks for the last
+/// known event too: where that is another now, or gone, tracking has begun to count anew, however far it has come.
+void WmsBridgeNodelet::catch_up() {
+  const HeardEvent last = bridge_->last_heard();
   PalletEventsAfter service;
-  service.request.sequence = after;
+  service.request.sequence = std::max<std::uint64_t>(last.sequence, 1) - 1;
   if (!events_after_.call(service)) return;  // it is not there, or is being started again
-  for (const PalletEvent& message : service.response.events) record(message);
+  const auto& events = service.response.events;
+  const auto is_last = [&](const PalletEvent& event) {
+    const auto change = pallet_change_from(event, map_frame_);
+    return change && last.is(*change);
+  };
+  const bool same = !events.empty() && is_last(events.front());
+  service.request.sequence = 0;
+  if (!same && !events_after_.call(service)) return;
+  same_count_ = true;
+  for (const PalletEvent& event : events)
+    if (!same || !is_last(event)) record(event);
 }
 
 void WmsBridgeNodelet::take_state(const PalletArrayConstPtr& message) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <set>
 
 #include "lodestar/wms/bridge.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
@@ -13,34 +12,18 @@
 #include "support/broker.hpp"
 #include "support/pallet_changes.hpp"
 #include "support/real_time.hpp"
+#include "support/site.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lodestar {
 namespace {
 
 using test::Broker;
+using test::kQuick;
 using test::mqtt;
 using test::run_until;
+using test::Site;
 using test::Worker;
-
-const BackOff kQuick{from_seconds(0.05), from_seconds(0.2)};
-
-/// A site of its own connection that remembers what it was handed.
-struct Site {
-  explicit Site(const std::string& broker, const std::string& client = "site") : link(mqtt(client, {broker})) {}
-
-  void poll() { client.poll(test::clocks().monotonic); }
-  void expect_all_once(std::uint64_t count) const {
-    ASSERT_EQ(sequences.size(), count);
-    for (std::uint64_t n = 1; n <= count; ++n) ASSERT_EQ(sequences[n - 1], n);
-  }
-
-  std::vector<std::uint64_t> sequences;
-  MqttLink link;
-  SiteClient client{link, 1, kQuick, "+", "+", [this](const std::string&, const std::string& document) {
-                      sequences.push_back(document_key_from(document)->sequence);
-                    }};
-};
 
 class Delivery : public testing::Test {
  protected:
@@ -55,83 +38,24 @@ class Delivery : public testing::Test {
 
 TEST_F(Delivery, ThreeThousandEventsThroughTwoKilledBrokersAndAKilledBridge) {
   Broker broker;
-  Site site(broker.uri());
+  Site site({broker.uri()});
   Worker worker(store(), "3000", broker.uri());
   const auto reached = [&](std::size_t count) {
-    return run_until([&] { return site.sequences.size() >= count; }, [&] { site.poll(); });
+    return run_until([&] { return site.documents.size() >= count; }, [&] { site.poll(); });
   };
-  ASSERT_TRUE(reached(500)) << site.sequences.size();
+  ASSERT_TRUE(reached(500)) << site.documents.size();
   broker.kill();
   broker.start();
-  ASSERT_TRUE(reached(1200)) << site.sequences.size();
+  ASSERT_TRUE(reached(1200)) << site.documents.size();
   worker.kill();
   worker.start();
-  ASSERT_TRUE(reached(2000)) << site.sequences.size();
+  ASSERT_TRUE(reached(2000)) << site.documents.size();
   broker.kill();
   broker.start();
-  ASSERT_TRUE(reached(3000)) << site.sequences.size();
+  ASSERT_TRUE(reached(3000)) << site.documents.size();
   // Stragglers would show up now.
   run_until([] { return false; }, [&] { site.poll(); }, 0.3);
   site.expect_all_once(3000);
-}
-
-TEST_F(Delivery, TenThousandEventsWaitForTheNetworkThenDrain) {
-  Broker broker;
-  broker.kill();
-  MqttLink link(mqtt("truck7", {broker.uri()}));
-  BridgeParams params = test::bridge_params(store());
-  params.back_off = kQuick;
-  Bridge bridge(params, link, test::clocks());
-  for (int n = 1; n <= 10000; ++n) {
-    bridge.take(test::change(n), test::clocks());
-    if (n % 100 == 0) bridge.poll(test::clocks());
-  }
-  EXPECT_EQ(bridge.outbox().waiting(), 10000u);
-  EXPECT_FALSE(bridge.connected());
-  EXPECT_NE(bridge.last_failure(), "");
-
-  broker.start();
-  Site site(broker.uri());
-  const bool drained = run_until([&] { return bridge.outbox().waiting() == 0; },
-                                 [&] {
-                                   bridge.poll(test::clocks());
-                                   site.poll();
-                                 });
-  EXPECT_TRUE(drained) << bridge.outbox().waiting() << " " << bridge.last_failure();
-  site.expect_all_once(10000);
-}
-
-TEST_F(Delivery, OneOfTwoBrokersDies) {
-  auto first = std::make_unique<Broker>();
-  Broker second;
-  MqttLink link(mqtt("truck7", {first->uri(), second.uri()}));
-  BridgeParams params = test::bridge_params(store());
-  params.brokers = 2;
-  params.back_off = kQuick;
-  Bridge bridge(params, link, test::clocks());
-  // A site listens at both brokers and keeps one list.
-  std::set<std::uint64_t> kept;
-  const auto keep = [&](const std::string&, const std::string& document) {
-    EXPECT_TRUE(kept.insert(document_key_from(document)->sequence).second) << "twice";
-  };
-  MqttLink link_a(mqtt("site", {first->uri()})), link_b(mqtt("site", {second.uri()}));
-  SiteClient site_a(link_a, 1, kQuick, "lodestar", "truck7", keep),
-      site_b(link_b, 1, kQuick, "lodestar", "truck7", keep);
-  int n = 0, recorded = 300;
-  const auto step = [&] {
-    if (n < recorded) bridge.take(test::change(++n), test::clocks());
-    bridge.poll(test::clocks());
-    site_a.poll(test::clocks().monotonic);
-    site_b.poll(test::clocks().monotonic);
-  };
-  // All of it is acknowledged before the broker dies: two clients that share no numbers would else keep it twice.
-  ASSERT_TRUE(run_until([&] { return bridge.outbox().acknowledged() == 300; }, step));
-  EXPECT_EQ(bridge.broker(), 0u);
-  first.reset();
-  recorded = 600;
-  ASSERT_TRUE(run_until([&] { return bridge.outbox().acknowledged() == 600; }, step)) << bridge.last_failure();
-  EXPECT_EQ(bridge.broker(), 1u);
-  EXPECT_EQ(kept.size(), 600u);
 }
 
 /// What became of a connection.

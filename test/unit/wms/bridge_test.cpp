@@ -56,7 +56,9 @@ class BridgeTest : public testing::Test {
  protected:
   BridgeTest() { params_.outbox.window = 50; }
 
-  ClockReading now() const { return {test::at(time_s_ + wall_offset_s_), Instant(from_seconds(1000 + time_s_))}; }
+  ClockReading now() const {
+    return {test::at(time_s_ + wall_offset_s_), Instant(from_seconds(1000 + time_s_)), synchronised_};
+  }
   void poll(Bridge& bridge, int times = 1) {
     for (int i = 0; i < times; ++i, time_s_ += 0.01) bridge.poll(now());
   }
@@ -69,6 +71,7 @@ class BridgeTest : public testing::Test {
   BridgeParams params_ = test::bridge_params(folder_ / "wms.db");
   FakeLink link_;
   double time_s_ = 0, wall_offset_s_ = 0;
+  bool synchronised_ = true;
 };
 
 TEST_F(BridgeTest, GreetsEachConnectionAnew) {
@@ -247,6 +250,28 @@ TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsBeforeIt) {
   EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
 }
 
+TEST_F(BridgeTest, EventsBeforeTheFirstStepBearTheMarkThoughTheyWereHandedOver) {
+  synchronised_ = false;
+  Bridge bridge(params_, link_, now());
+  bridge.take(change(1), now());
+  poll(bridge, 3);
+  ASSERT_EQ(link_.on("/event").size(), 1u);
+  bridge.take(change(2), now());
+  wall_offset_s_ = 3600;
+  synchronised_ = true;
+  poll(bridge, 2);
+  bridge.take(change(3), now());
+  poll(bridge, 2);
+  const auto events = link_.on("/event");
+  ASSERT_EQ(events.size(), 3u);
+  const auto event = [&](int i) { return json::parse(events[i].payload)["epcisBody"]["eventList"][0]; };
+  EXPECT_EQ(event(0).value("lodestar:clock", ""), "unsynchronised");
+  EXPECT_FALSE(event(0).contains("lodestar:clockStep_s")) << "nobody knew it then";
+  EXPECT_EQ(event(1).value("lodestar:clock", ""), "unsynchronised");
+  EXPECT_NEAR(event(1).value("lodestar:clockStep_s", 0.0), 3600, 0.1);
+  EXPECT_FALSE(event(2).contains("lodestar:clock"));
+}
+
 TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsThatWaitInMemoryToo) {
   Bridge bridge(params_, link_, now());
   {
@@ -279,7 +304,7 @@ TEST_F(BridgeTest, AStoreThatBreaksWhileItRunsIsReplaced) {
     std::fstream file(params_.store.path, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(4096);
     file << std::string(std::filesystem::file_size(params_.store.path) - 4096, '\xee') << std::flush;
-    other.exec("PRAGMA user_version = 2");
+    other.exec("PRAGMA user_version = 3");
   }
   for (int n = 5; n <= 30 && bridge.set_aside().empty(); ++n) {
     bridge.take(change(n), now());
@@ -309,7 +334,7 @@ TEST_F(BridgeTest, AnRTreeThatBreaksWhileItRunsCostsNoEvent) {
   EXPECT_NE(bridge.store().stream(), old_stream);
   poll(bridge, 2);
   EXPECT_EQ(bridge.in_memory(), 0u);
-  EXPECT_EQ(bridge.store().last_heard(), 6u);
+  EXPECT_TRUE(bridge.store().last_heard().is(change(6)));
   EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->stream, bridge.store().stream());
 }
 

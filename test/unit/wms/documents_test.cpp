@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -26,9 +27,9 @@ using test::uuid;
 
 const EpcisParams kParams = test::bridge_params("").epcis;
 
-std::string document(const PalletChange& change, const std::string& corrected = "", Duration step = Duration(0)) {
+std::string document(const PalletChange& change, const std::vector<std::string>& told = {}, WallClock clock = {}) {
   return epcis_document(epcis_draft(kParams, change),
-                        {uuid(900), change.sequence, change.stamp + from_seconds(2), step, corrected});
+                        {uuid(900), change.sequence, change.stamp + from_seconds(2), clock, told});
 }
 
 json events_of(const std::string& document) { return json::parse(document)["epcisBody"]["eventList"]; }
@@ -45,8 +46,9 @@ void expect_example(const std::string& name, const std::string& text) {
 TEST(Documents, Examples) {
   expect_example("epcis_pick", document(change(1)));
   expect_example("epcis_drop", document(change(2)));
-  expect_example("epcis_correction", document(correction(PalletState::kStanding), document(change(2))));
-  expect_example("epcis_uncertain", document(uncertain(), "", from_seconds(3600)));
+  expect_example("epcis_correction",
+                 document(correction(PalletState::kStanding), {document(change(1)), document(change(2))}));
+  expect_example("epcis_uncertain", document(uncertain(), {}, {true, from_seconds(3600)}));
   expect_example("epcis_gone", document(gone()));
 }
 
@@ -96,34 +98,176 @@ TEST(Documents, AnUnreadPalletGoesByItsUuid) {
   EXPECT_EQ(events_of(document(uncertain()))[0]["childEPCs"], json({"urn:uuid:" + uuid(3)}));
 }
 
-TEST(Documents, ACorrectionDeclaresTheOldAndTellsTheNew) {
-  const json old_events = events_of(document(change(2)));
-  const json events = events_of(document(correction(PalletState::kStanding), document(change(2))));
-  ASSERT_EQ(events.size(), 3u);
-  for (int i = 0; i < 2; ++i) {
-    json declared = events[i];
-    const json error = declared["errorDeclaration"];
-    EXPECT_EQ(error["reason"], "incorrect_data");
-    EXPECT_EQ(error["lodestar:reason"], "stood one place further");
-    EXPECT_EQ(error["correctiveEventIDs"], json({events[2]["eventID"]}));
-    declared.erase("errorDeclaration");
-    EXPECT_EQ(declared, old_events[i]);
+/// What a document declares wrong, each with what replaces it, and what else it tells.
+struct Told {
+  std::vector<std::pair<json, json>> replaced;
+  std::vector<json> others;
+};
+Told told_in(const std::string& document) {
+  Told out;
+  std::map<std::string, json> right;
+  for (const json& event : events_of(document)) {
+    if (event.contains("errorDeclaration")) {
+      EXPECT_EQ(event["errorDeclaration"]["reason"], "incorrect_data");
+      EXPECT_EQ(event["errorDeclaration"]["correctiveEventIDs"].size(), 1u);
+      out.replaced.push_back({event, nullptr});
+      out.replaced.back().first.erase("errorDeclaration");
+    } else if (event.contains("lodestar:toldAnew")) {
+      right[event["eventID"]] = event;
+    } else {
+      out.others.push_back(event);
+    }
   }
-  EXPECT_FALSE(events[2].contains("errorDeclaration"));
-  // What is corrected a second time is the correction, not what it had corrected.
-  PalletChange second = correction(PalletState::kStanding);
-  second.sequence = 4;
-  const json twice = events_of(document(second, document(correction(PalletState::kStanding), document(change(2)))));
-  ASSERT_EQ(twice.size(), 2u);
-  EXPECT_EQ(twice[0]["eventID"], events[2]["eventID"]);
-  // Nothing is known of what it corrects.
-  EXPECT_EQ(events_of(document(correction(PalletState::kGone))).size(), 1u);
+  std::size_t i = 0;
+  for (const json& event : events_of(document))
+    if (event.contains("errorDeclaration"))
+      out.replaced[i++].second = right[event["errorDeclaration"]["correctiveEventIDs"][0].get<std::string>()];
+  EXPECT_EQ(right.size(), out.replaced.size());
+  for (const auto& [wrong, event] : out.replaced) {
+    EXPECT_EQ(event["type"], wrong["type"]);
+    EXPECT_EQ(event["action"], wrong["action"]);
+    EXPECT_EQ(event["eventTime"], wrong["eventTime"]) << "it happened then";
+  }
+  return out;
+}
+
+std::string picked() { return document(change(1)); }
+std::string dropped() { return document(change(2)); }
+const char kLabel[] = "https://id.gs1.org/00/106141412345678908";
+
+/// The pallet of change(1) and change(2) before its label was read.
+std::string unread(std::uint64_t n) {
+  PalletChange out = change(n);
+  out.pallet.sscc.clear();
+  return document(out);
+}
+
+TEST(Documents, AnotherPlaceReplacesTheSetDownAndLeavesThePick) {
+  const std::string corrected = document(correction(PalletState::kStanding), {picked(), dropped()});
+  const Told told = told_in(corrected);
+  ASSERT_EQ(told.replaced.size(), 2u);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(told.replaced[i].first, events_of(dropped())[i]) << "word for word";
+    EXPECT_EQ(told.replaced[i].second["readPoint"]["id"], "https://id.gs1.org/414/4012345000115/254/A-2");
+  }
+  EXPECT_EQ(events_of(corrected)[0]["errorDeclaration"]["lodestar:reason"], "stood one place further");
+  ASSERT_EQ(told.others.size(), 1u);
+  EXPECT_EQ(told.others[0]["action"], "OBSERVE");
+}
+
+TEST(Documents, AnotherPoseInTheSameZoneLeavesTheSetDownToo) {
+  PalletChange moved = correction(PalletState::kStanding);
+  moved.pallet.zone = change(2).pallet.zone;
+  moved.pallet.T_map_pallet.translation().x() += 1.25;
+  const Told told = told_in(document(moved, {picked(), dropped()}));
+  ASSERT_EQ(told.replaced.size(), 1u);
+  EXPECT_EQ(told.replaced[0].first, events_of(dropped())[1]);
+  const json element = told.replaced[0].second["sensorElementList"][0];
+  EXPECT_EQ(element["sensorReport"][0]["value"], 1.75);
+  EXPECT_EQ(element["sensorMetadata"], events_of(dropped())[1]["sensorElementList"][0]["sensorMetadata"]);
+}
+
+TEST(Documents, ALabelThatIsReadOnTheForkReplacesThePick) {
+  PalletChange read = change(1);
+  read.kind = PalletChangeKind::kCorrection;
+  read.stamp = test::at(1.5);
+  const Told told = told_in(document(read, {unread(1)}));
+  ASSERT_EQ(told.replaced.size(), 1u);
+  EXPECT_EQ(told.replaced[0].first["childEPCs"], json({"urn:uuid:" + uuid(1)}));
+  EXPECT_EQ(told.replaced[0].second["childEPCs"], json({kLabel}));
+  EXPECT_EQ(told.replaced[0].second["action"], "ADD");
+  EXPECT_EQ(told.others.at(0)["epcList"], json({kLabel}));
+}
+
+TEST(Documents, ALabelThatIsReadLaterReplacesAllThatWasToldWithoutIt) {
+  PalletChange read = correction(PalletState::kStanding);
+  read.pallet = change(2).pallet;
+  const Told told = told_in(document(read, {unread(1), unread(2)}));
+  ASSERT_EQ(told.replaced.size(), 3u);
+  EXPECT_EQ(told.replaced[0].second["childEPCs"], json({kLabel}));
+  EXPECT_EQ(told.replaced[0].second["bizStep"], "transporting");
+  EXPECT_EQ(told.replaced[1].second["action"], "DELETE");
+  EXPECT_EQ(told.replaced[2].second["epcList"], json({kLabel}));
+}
+
+TEST(Documents, WhatProvesToBeAnotherPalletIsToldOfThatOne) {
+  // Pallet 3 was lifted in doubt as pallet 9, and proves to be itself.
+  PalletChange lifted = change(5), merged = change(5), ended = change(5);
+  lifted.pallet.id = merged.pallet.id = ended.pallet.id = uuid(9);
+  lifted.pallet.state = PalletState::kUncertain;
+  lifted.candidates = {uuid(3), uuid(4)};
+  merged.kind = ended.kind = PalletChangeKind::kCorrection;
+  merged.pallet.id = uuid(3);
+  ended.pallet.state = PalletState::kGone;
+  const Told told = told_in(document(merged, {document(lifted)}));
+  ASSERT_EQ(told.replaced.size(), 1u);
+  EXPECT_EQ(told.replaced[0].second["childEPCs"], json({"urn:uuid:" + uuid(3)}));
+  EXPECT_EQ(told.replaced[0].second["disposition"], "in_transit");
+  EXPECT_FALSE(told.replaced[0].second.contains("lodestar:candidate"));
+  const Told end = told_in(document(ended, {document(lifted)}));
+  EXPECT_TRUE(end.replaced.empty());
+  EXPECT_EQ(end.others.at(0)["bizStep"], "decommissioning");
+  EXPECT_EQ(end.others.at(0)["epcList"], json({"urn:uuid:" + uuid(9)}));
+}
+
+TEST(Documents, DoubtAndDepartureAreNoErrors) {
+  PalletChange doubt = correction(PalletState::kUncertain), sure = correction(PalletState::kStanding);
+  doubt.pallet.zone = sure.pallet.zone = change(2).pallet.zone;
+  const std::string doubted = document(doubt, {picked(), dropped()});
+  EXPECT_EQ(events_of(doubted).size(), 1u);
+  EXPECT_EQ(events_of(doubted)[0]["disposition"], "unknown");
+  EXPECT_EQ(events_of(doubted)[0]["lodestar:reason"], "stood one place further");
+  EXPECT_EQ(events_of(document(sure, {picked(), dropped(), doubted})).size(), 1u);
+  const json gone = events_of(document(correction(PalletState::kGone), {picked(), dropped()}));
+  ASSERT_EQ(gone.size(), 1u);
+  EXPECT_EQ(gone[0]["bizStep"], "departing");
+}
+
+TEST(Documents, APalletInDoubtThatTheForkCarriesStandsNowhere) {
+  PalletChange doubt = correction(PalletState::kUncertain);
+  const json event = events_of(document(doubt, {picked()}))[0];
+  EXPECT_EQ(event["bizStep"], "transporting");
+  EXPECT_FALSE(event.contains("bizLocation"));
+  EXPECT_FALSE(event.contains("sensorElementList"));
+}
+
+TEST(Documents, ADepartureThatWasNoneIsReplaced) {
+  PalletChange gone = change(2);
+  gone.pallet.state = PalletState::kGone;
+  const Told told = told_in(document(correction(PalletState::kStanding), {picked(), document(gone)}));
+  ASSERT_EQ(told.replaced.size(), 2u);
+  for (const auto& [wrong, right] : told.replaced) {
+    EXPECT_EQ(wrong["bizStep"], "departing");
+    EXPECT_EQ(right["bizStep"], "storing");
+    EXPECT_EQ(right["disposition"], "in_progress");
+    EXPECT_EQ(right["lodestar:state"], "standing");
+    EXPECT_TRUE(right.contains("bizLocation"));
+  }
+}
+
+TEST(Documents, ACorrectionCanBeCorrectedBack) {
+  const std::string first = document(correction(PalletState::kStanding), {picked(), dropped()});
+  PalletChange back = correction(PalletState::kStanding);
+  back.stamp += from_seconds(60);
+  back.pallet.zone = change(2).pallet.zone;
+  const Told told = told_in(document(back, {picked(), dropped(), first}));
+  ASSERT_EQ(told.replaced.size(), 3u) << "what was declared wrong before is not declared again";
+  for (const json& event : events_of(dropped()))
+    for (const auto& [wrong, right] : told.replaced) {
+      EXPECT_NE(wrong["eventID"], event["eventID"]);
+      EXPECT_NE(right["eventID"], event["eventID"]) << "declared wrong and right";
+    }
+}
+
+TEST(Documents, ACorrectionOfWhatNobodyKnowsStandsAlone) {
+  EXPECT_EQ(events_of(document(correction(PalletState::kStanding))).size(), 1u);
 }
 
 TEST(Documents, EventIdsAreTheHashesOfTheEvents) {
   const json namespaces = json::parse(document(change(2)))["@context"][1];
-  for (const PalletChange& what : {change(1), change(2), uncertain(), gone()})
-    for (const json& event : events_of(document(what))) EXPECT_EQ(event["eventID"], event_hash_id(event, namespaces));
+  for (const std::string& each : {picked(), dropped(), document(uncertain()), document(gone()),
+                                  document(correction(PalletState::kStanding), {picked(), dropped()})})
+    for (const json& event : events_of(each)) EXPECT_EQ(event["eventID"], event_hash_id(event, namespaces));
 }
 
 TEST(Documents, APlaceThatNoKeyCanNameIsTheSites) {

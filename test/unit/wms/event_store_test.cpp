@@ -30,9 +30,12 @@ class Store : public testing::Test {
     params.ballast_bytes = 65536;
     return params;
   }
-  static std::string freeze(const std::string& draft, std::uint64_t sequence, Duration step, const std::string& wrong) {
-    return std::to_string(sequence) + ":" + draft + (step == Duration::zero() ? "" : " stepped") +
-           (wrong.empty() ? "" : " corrects " + wrong);
+  static std::string freeze(const StoredDraft& stored) {
+    std::string out = std::to_string(stored.sequence) + ":" + stored.draft;
+    if (stored.clock.step != Duration::zero()) out += " stepped";
+    if (!stored.clock.synchronised) out += " unsynchronised";
+    for (const std::string& told : stored.told) out += " after " + told;
+    return out;
   }
 
   test::TemporaryFolder folder_;
@@ -49,7 +52,7 @@ TEST_F(Store, NumbersFromOneAndKeepsEverythingOverARestart) {
   EventStore store(params(), uuid(901));
   EXPECT_EQ(store.stream(), kStream);
   EXPECT_EQ(store.last(), 6u);
-  EXPECT_EQ(store.last_heard(), 6u);
+  EXPECT_TRUE(store.last_heard().is(change(6)));
   EXPECT_EQ(store.acknowledged(), 2u);
   const auto documents = store.documents(3, 3, freeze);
   ASSERT_EQ(documents.size(), 3u);
@@ -71,9 +74,7 @@ TEST_F(Store, TheSameEventIsRecordedOnce) {
 
 TEST_F(Store, DocumentsAreFrozenOnce) {
   int frozen = 0;
-  const auto count = [&](const std::string& draft, std::uint64_t, Duration, const std::string&) {
-    return draft + " frozen " + std::to_string(++frozen);
-  };
+  const auto count = [&](const StoredDraft& stored) { return stored.draft + " frozen " + std::to_string(++frozen); };
   std::string first;
   {
     EventStore store(params(), kStream);
@@ -87,19 +88,21 @@ TEST_F(Store, DocumentsAreFrozenOnce) {
   EXPECT_EQ(frozen, 2);
 }
 
-TEST_F(Store, ACorrectionFindsWhatItCorrects) {
+TEST_F(Store, ACorrectionFindsWhatWasToldOfItsPallets) {
   EventStore store(params(), kStream);
-  store.record(change(1), "d1");
-  store.record(change(2), "d2");
+  // Pallet 1 is lifted and set down, then pallet 2, which proves to be pallet 7; pallet 3 has nothing to do with it.
+  for (const int n : {1, 2, 3, 4, 5}) store.record(change(n), "d" + std::to_string(n));
   PalletChange correction = change(3);
   correction.kind = PalletChangeKind::kCorrection;
-  correction.corrects = 2;
-  store.record(correction, "d3");
-  EXPECT_EQ(store.documents(1, 50, freeze)[2].document, "3:d3 corrects 2:d2");
-  correction.sequence = 4;
+  correction.pallet.id = uuid(7);
+  correction.sequence = 6;
+  correction.corrects = 4;
+  store.record(correction, "d6");
+  EXPECT_EQ(store.documents(1, 50, freeze)[5].document, "6:d6 after 3:d3 after 4:d4");
+  correction.sequence = 7;
   correction.corrects = 77;
-  store.record(correction, "d4");
-  EXPECT_EQ(store.documents(4, 50, freeze)[0].document, "4:d4");
+  store.record(correction, "d7");
+  EXPECT_EQ(store.documents(7, 50, freeze)[0].document, "7:d7 after 6:d6 after 3:d3 after 4:d4");
 }
 
 TEST_F(Store, AcknowledgementsOnlyGoForward) {
@@ -131,6 +134,20 @@ TEST_F(Store, PalletsAndTheirPlaces) {
   found = store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].id, uuid(2));
+  // Gone it is forgotten, and set down anew where it stands now.
+  PalletChange gone = change(4);
+  gone.sequence = 42;
+  gone.pallet.state = PalletState::kGone;
+  store.record(gone, "d");
+  EXPECT_TRUE(store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}}).empty());
+  PalletChange back = change(4);
+  back.sequence = 43;
+  store.record(back, "d");
+  EXPECT_EQ(store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}}).size(), 1u);
+  back.sequence = 44;
+  back.pallet.T_map_pallet.translation().x() = 7;
+  store.record(back, "d");
+  EXPECT_TRUE(store.pallets_in({{0.4, 0, 0}, {1.1, 9, 9}}).empty());
 }
 
 TEST_F(Store, AFullFileKeepsAllAndIsWorkedOff) {
@@ -201,7 +218,7 @@ TEST_F(Store, AClockThatIsSetMarksWhatNobodyWasHanded) {
   {
     EventStore store(params(), kStream);
     EXPECT_FALSE(store.clock_offset());
-    store.keep_clock_offset(from_seconds(5));
+    store.mark_clock_step(Duration::zero(), from_seconds(5));
     store.record(change(1), "d1");
     store.record(change(2), "d2");
     store.documents(1, 1, freeze);
@@ -220,6 +237,38 @@ TEST_F(Store, AClockThatIsSetMarksWhatNobodyWasHanded) {
   EXPECT_FALSE(store.clock_offset());
   EXPECT_TRUE(store.mark_clock_step(from_seconds(3600), from_seconds(3600)));
   EXPECT_EQ(store.documents(4, 1, freeze)[0].document, "4:d4");
+}
+
+TEST_F(Store, WhatWasHeardWhileNobodyKeptTheClockBearsTheMark) {
+  EventStore store(params(), kStream);
+  store.record(change(1), "d1", {false, Duration::zero()});
+  store.record(change(2), "d2");
+  const auto documents = store.documents(1, 50, freeze);
+  EXPECT_EQ(documents[0].document, "1:d1 unsynchronised");
+  EXPECT_EQ(documents[1].document, "2:d2");
+}
+
+TEST_F(Store, AFullStoreKeepsAClockStepOverAReboot) {
+  StoreParams small = params();
+  small.max_pages = 60;
+  small.reserve_pages = 1;
+  {
+    EventStore store(small, kStream);
+    store.mark_clock_step(Duration::zero(), from_seconds(5));
+    std::uint64_t n = 0;
+    while (store.record(change(n + 1), std::string(100, 'd')) == Recorded::kNew) ++n;
+    // Nor is anything of the reserve left.
+    const auto longer = [](const StoredDraft& stored) { return stored.draft + std::string(3000, 'f'); };
+    while (!store.documents(1, 1, longer).empty() && n-- > 0) store.acknowledge(0);
+    ASSERT_TRUE(store.documents(1, 50, longer).empty());
+    EXPECT_TRUE(store.mark_clock_step(from_seconds(3600), from_seconds(3605)));
+  }
+  small.boot = "boot-2";
+  small.reserve_pages = 1000;
+  EventStore store(small, kStream);
+  const auto documents = store.documents(store.last(), 1, freeze);
+  ASSERT_EQ(documents.size(), 1u);
+  EXPECT_NE(documents[0].document.find(" stepped"), std::string::npos);
 }
 
 TEST_F(Store, AClockStepThatCannotBeWrittenIsNotForgotten) {
@@ -297,6 +346,9 @@ TEST_F(Store, AnOlderFileIsBroughtUpANewerOneIsLeftAlone) {
   {
     // As version 1 left it.
     SQLite::Database old(params().path, SQLite::OPEN_READWRITE);
+    old.exec("DROP INDEX event_pallet");
+    old.exec("DROP TABLE clock");
+    old.exec("ALTER TABLE event DROP COLUMN synchronised");
     old.exec("ALTER TABLE event DROP COLUMN boot");
     old.exec("ALTER TABLE event DROP COLUMN clock_step_ns");
     old.exec("PRAGMA user_version = 1");

@@ -31,7 +31,7 @@ int watch_connection(sqlite3* database, const char**, const sqlite3_api_routines
   return sqlite3_trace_v2(database, SQLITE_TRACE_STMT | SQLITE_TRACE_PROFILE, count_statement, nullptr);
 }
 
-std::string freeze(const std::string& draft, std::uint64_t, Duration, const std::string&) { return draft + " frozen"; }
+std::string freeze(const StoredDraft& stored) { return stored.draft + " frozen"; }
 
 /// Records, hands over and acknowledges until it is killed; tells each number that is durable.
 [[noreturn]] void work(const StoreParams& params, int told) {

@@ -26,9 +26,7 @@ struct Promise {
 };
 
 EventStore::Freeze freeze_in(int life) {
-  return [life](const std::string& draft, std::uint64_t, Duration, const std::string&) {
-    return draft + " frozen in life " + std::to_string(life);
-  };
+  return [life](const StoredDraft& stored) { return stored.draft + " frozen in life " + std::to_string(life); };
 }
 
 /// Records, hands over and acknowledges until the power falls. The log is moved into the file much more often than by

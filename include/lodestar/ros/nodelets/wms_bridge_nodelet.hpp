@@ -26,7 +26,7 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   void onInit() override;
   void take_event(const PalletEventConstPtr& message);
   void record(const PalletEvent& message);
-  void ask_for_missed(std::uint64_t after);
+  void catch_up();
   void take_state(const PalletArrayConstPtr& message);
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void take_integrity(const PoseIntegrityConstPtr& message);
@@ -42,10 +42,11 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   StreamWatch* events_watch_ = nullptr;
   StreamWatch* pose_watch_ = nullptr;
   std::uint64_t told_ = 0;        ///< number of the newest event that pallet tracking has
+  bool same_count_ = false;       ///< its count is known to be the one that was heard last
   std::set<std::string> lifted_;  ///< ids of what the fork took, in doubt or not
   ros::Subscriber events_, state_, pose_, integrity_, battery_;
   ros::ServiceClient events_after_;
-  ros::WallTimer poll_, catch_up_;
+  ros::WallTimer poll_, watch_;
 };
 
 }  // namespace lodestar
