@@ -32,6 +32,7 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 
 CodeReader::CodeReader(const CodeReaderParams& params, int slots)
     : params_(params),
+      margins_(params.code),
       wave_(slots),
       model_(slots),
       weights_(slots),
@@ -73,7 +74,7 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
       for (int c = 0; c < n; ++c)
         gram.block<2, 2>(2 * r, 2 * c) = bank.gram().block<2, 2>(row, 2 * tones[static_cast<std::size_t>(c)]);
     }
-    gram.ldlt().solveInPlace(fit.amplitudes);
+    if (n > 1) gram.ldlt().solveInPlace(fit.amplitudes);  // alone a tone's two rows are orthonormal
 
     TonePowers powers(bank.tones());
     for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
@@ -87,7 +88,7 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
                 fit.amplitudes.segment<2>(2 * k);
       powers[tone] = left.squaredNorm() - noise_power;
     }
-    fit.code = decide_code(powers, params_.code);
+    fit.code = decide_code(powers, margins_);
     if (fit.code == set) return fit;
   }
   fit.code = ToneSet();

@@ -64,6 +64,7 @@ class PathFilter {
   Eigen::Vector2d last_surprise_ = Eigen::Vector2d::Zero();  ///< innovation of the frame before, if it was one
   Eigen::Vector2d quiet_pixel_ = Eigen::Vector2d::Zero();    ///< a moving blob has kept near it for near_frames_
   int quiet_frames_ = 0, near_frames_ = 0;
+  int updates_ = 0;  ///< since it began to move
 };
 
 }  // namespace lodestar
