@@ -13,6 +13,7 @@ constexpr double kMaxYoungGatePx = 20;
 constexpr double kFirstSigmaPx = 0.7;   ///< of a cell's centre
 constexpr double kFirstSpeedPxS = 500;  ///< one sigma, beside the prediction
 constexpr double kKnownSpeedPxS = 60;   ///< ... where the image's motion is known
+constexpr int kDoubtedHits = 6;         ///< ... there a velocity changes little, and is taken from several hits
 constexpr double kHeightShare = 0.15;   ///< of the image's motion, by which heights make a blob's differ; one sigma
 constexpr int kLookBackFrames = 8;      ///< at a time; each 4 hits the velocity is known better
 constexpr int kLookBackHits = 16;
@@ -200,8 +201,11 @@ void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, con
   for (std::size_t i = 0; i < risen.size() && count_ < tracks_.size(); ++i) {
     if (taken_[i]) continue;
     PathFilter path(middle(risen[i]), window_frames_);
-    path.start_moving(kFirstSigmaPx * kFirstSigmaPx,
-                      motion_known ? known_speed_px_s(path.pixel(), window, motion) : kFirstSpeedPxS);
+    if (motion_known) {
+      path.start_moving(kFirstSigmaPx * kFirstSigmaPx, known_speed_px_s(path.pixel(), window, motion), kDoubtedHits);
+    } else {
+      path.start_moving(kFirstSigmaPx * kFirstSigmaPx, kFirstSpeedPxS);
+    }
     BlobTrack& track = tracks_[count_];
     track.restart(path);
     if (track.look(window, path.pixel(), noise) != BlobTrack::Look::kSeen) continue;

@@ -134,8 +134,8 @@ void ChangeScan::scan(const Image& image, bool stands, Planes<Lane>& planes) {
   const int whole = image.width_px / (2 * kSegment);
   for (int row = 0; row < rows_; ++row) {
     if (row + 2 < rows_) {
-      prefetch(image.row<Pixel>(2 * row + 4), image.width_px);
-      prefetch(image.row<Pixel>(2 * row + 5), image.width_px);
+      prefetch_once(image.row<Pixel>(2 * row + 4), image.width_px);
+      prefetch_once(image.row<Pixel>(2 * row + 5), image.width_px);
     }
     const auto first = static_cast<std::size_t>(row * segments_) * kSegment;
     ChangeRow<Pixel, Lane> in{image.row<Pixel>(2 * row),
