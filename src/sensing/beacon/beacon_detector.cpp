@@ -143,7 +143,7 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
       scan_.defer(change.pixel);
       continue;
     }
-    const PixelNoise around{noise.dark_variance * static_cast<double>(change.noise), noise.white_level};
+    const PixelNoise around{scan_.variance_around(change.pixel), noise.white_level};
     const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, around);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
     if (track) track->set_surround(around.dark_variance);

@@ -50,6 +50,7 @@ void BlobTrack::hide() {
   hidden = true;
   unseen_ = static_cast<int>(flux_.size());
   frames_ = 0;
+  path_.forget_acceleration();  // over a second what noise has made of it leads far away
 }
 
 void BlobTrack::aim(const Eigen::Vector2d& place) {

@@ -12,7 +12,8 @@ constexpr int kYoungHits = 4;  ///< until then a blob is looked for among all ch
 constexpr double kMaxYoungGatePx = 20;
 constexpr double kFirstSigmaPx = 0.7;   ///< of a cell's centre
 constexpr double kFirstSpeedPxS = 500;  ///< one sigma, beside the prediction
-constexpr double kKnownSpeedPxS = 60;   ///< ... where other blobs say how the image moves
+constexpr double kKnownSpeedPxS = 60;   ///< ... where the image's motion is known
+constexpr int kDoubtedHits = 6;         ///< ... there a velocity changes little, and is taken from several hits
 constexpr double kHeightShare = 0.15;   ///< of the image's motion, by which heights make a blob's differ; one sigma
 constexpr int kLookBackFrames = 8;      ///< at a time; each 4 hits the velocity is known better
 constexpr int kLookBackHits = 16;
@@ -22,6 +23,14 @@ constexpr int kHiddenWindows = 5;   ///< how long a hidden beacon is waited for
 /// A change's place: the middle of its cell, which is its upper left pixel's lower right corner.
 Eigen::Vector2d middle(const ChangeScan::Change& change) {
   return change.pixel.cast<double>() + Eigen::Vector2d::Constant(0.5);
+}
+
+/// How fast a new blob may be beside the prediction, one sigma: its height makes the image's motion another.
+double known_speed_px_s(const Eigen::Vector2d& pixel, const FrameWindow& window, const ImageMotion& motion) {
+  const int newest = window.newest();
+  const auto before = motion.pixel_from(pixel, window.T_before_now(newest));
+  const double step_px = before ? (pixel - *before).norm() : 0;
+  return kKnownSpeedPxS + kHeightShare * step_px / window.interval_s(newest);
 }
 
 bool is_known(const BlobTrack& track) { return track.path().still() || !track.code.empty(); }
@@ -173,7 +182,7 @@ void BlobTracker::follow(FrameWindow& window, const Changes& risen, const ImageM
   keep_if([&](BlobTrack& track) { return take(track, window, motion, noise); });
   if (alone) common_motion_.learn(tracks_, count_, window, motion);
   drop_twins();
-  begin_new(window, risen, motion, noise);
+  begin_new(window, risen, motion, !alone || common_motion_.known(), noise);
 }
 
 void BlobTracker::drop_twins() {
@@ -188,14 +197,15 @@ void BlobTracker::drop_twins() {
 }
 
 void BlobTracker::begin_new(const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
-                            const PixelNoise& noise) {
+                            bool motion_known, const PixelNoise& noise) {
   for (std::size_t i = 0; i < risen.size() && count_ < tracks_.size(); ++i) {
     if (taken_[i]) continue;
     PathFilter path(middle(risen[i]), window_frames_);
-    const double speed_px_s = common_motion_.known()
-                                  ? kKnownSpeedPxS + kHeightShare * common_motion_.flow(path.pixel(), motion).norm()
-                                  : kFirstSpeedPxS;
-    path.start_moving(kFirstSigmaPx * kFirstSigmaPx, speed_px_s);
+    if (motion_known) {
+      path.start_moving(kFirstSigmaPx * kFirstSigmaPx, known_speed_px_s(path.pixel(), window, motion), kDoubtedHits);
+    } else {
+      path.start_moving(kFirstSigmaPx * kFirstSigmaPx, kFirstSpeedPxS);
+    }
     BlobTrack& track = tracks_[count_];
     track.restart(path);
     if (track.look(window, path.pixel(), noise) != BlobTrack::Look::kSeen) continue;

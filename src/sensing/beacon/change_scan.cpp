@@ -23,6 +23,7 @@ constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain 
 constexpr int kNoiseSample = 256;                         ///< cells a frame
 constexpr double kNoiseForgets = 1.0 / 16;
 constexpr std::ptrdiff_t kAround = 3;                ///< cells from a spot's middle, where its light has ended
+constexpr std::size_t kRing = 8 * kAround;           ///< cells that far away
 constexpr double kLeastCellVariance = 2 * 4 / 12.0;  ///< of a difference: two frames, four pixels, rounding
 
 const ChangeKernels& kernels() {
@@ -133,8 +134,8 @@ void ChangeScan::scan(const Image& image, bool stands, Planes<Lane>& planes) {
   const int whole = image.width_px / (2 * kSegment);
   for (int row = 0; row < rows_; ++row) {
     if (row + 2 < rows_) {
-      prefetch(image.row<Pixel>(2 * row + 4), image.width_px);
-      prefetch(image.row<Pixel>(2 * row + 5), image.width_px);
+      prefetch_once(image.row<Pixel>(2 * row + 4), image.width_px);
+      prefetch_once(image.row<Pixel>(2 * row + 5), image.width_px);
     }
     const auto first = static_cast<std::size_t>(row * segments_) * kSegment;
     ChangeRow<Pixel, Lane> in{image.row<Pixel>(2 * row),
@@ -220,19 +221,27 @@ float ChangeScan::spot_energy(const Lane* cell, std::ptrdiff_t stride) const {
 }
 
 template <class Lane>
-float ChangeScan::noise_around(const Lane* cell, std::ptrdiff_t stride) const {
-  std::array<Lane, 8 * kAround> ring;
+float ChangeScan::energy_around(const Planes<Lane>& planes, const Eigen::Vector2i& cell) const {
+  const std::ptrdiff_t stride = segments_ * kSegment;
+  const Lane* const middle = planes.energy.data() + cell.y() * stride + cell.x();
+  std::array<Lane, kRing> ring;
   auto next = ring.begin();
   for (std::ptrdiff_t i = -kAround; i < kAround; ++i)
     for (const std::ptrdiff_t at :
          {i - kAround * stride, kAround * stride - i, -kAround - i * stride, kAround + i * stride})
-      *next++ = cell[at];
-  const auto middle = ring.begin() + ring.size() / 2;
-  std::nth_element(ring.begin(), middle, ring.end());
+      *next++ = middle[at];
+  const auto median = ring.begin() + ring.size() / 2;
+  std::nth_element(ring.begin(), median, ring.end());
+  return static_cast<float>(*median);
+}
+
+double ChangeScan::variance_around(const Eigen::Vector2i& pixel) const {
+  const Eigen::Vector2i cell = pixel / 2;
+  if (std::min({cell.x(), cell.y(), columns_ - 1 - cell.x(), rows_ - 1 - cell.y()}) < kAround) return pixel_variance();
+  const float energy = bits_ == 8 ? energy_around(narrow_, cell) : energy_around(wide_, cell);
   // Of Gaussian noise a median scatters by 1.25 sigma of one over the root of their count: 3 of that are no chance.
-  const float excess = static_cast<float>(*middle) - energy_mean_;
-  const float scatter = 1.25f * energy_sigma_ / std::sqrt(static_cast<float>(ring.size()));
-  return excess > 3 * scatter ? static_cast<float>(*middle) / energy_mean_ : 1;
+  const float scatter = 1.25f * energy_sigma_ / std::sqrt(static_cast<float>(kRing));
+  return pixel_variance() * (energy > energy_mean_ + 3 * scatter ? static_cast<double>(energy / energy_mean_) : 1.0);
 }
 
 template <class Value, class Limit, class Found>
@@ -284,9 +293,7 @@ void ChangeScan::collect_restless(const Planes<Lane>& planes) {
         const float size = spot_energy(planes.energy.data() + i, segments_ * kSegment);
         const Eigen::Vector2i cell = pixel / 2;
         if (size <= tile_limit_[tile(cell.x(), cell.y())]) return;
-        const bool inside = std::min({cell.x(), cell.y(), columns_ - 1 - cell.x(), rows_ - 1 - cell.y()}) >= kAround;
-        const Lane* energy = planes.energy.data() + i;
-        restless_.push_back({pixel, size, inside ? noise_around(energy, segments_ * kSegment) : 1});
+        restless_.push_back({pixel, size});
       });
   std::sort(restless_.begin(), restless_.end(), is_larger);
 }

@@ -21,6 +21,20 @@ constexpr float kMaxUneven = 0.025f;       ///< ... that the midst of bright and
 constexpr int kMaxColumns = 1 + 2 * kMaxTonesPerCode;
 using SmallMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxColumns, kMaxColumns>;
 
+/// From projections to amplitudes of tones (of so many, known when compiled: Eigen makes plain code of that) that leak
+/// into one another.
+template <int kTones, class Amplitudes>
+void fit_together(const ToneBank& bank, const std::array<int, kMaxTonesPerCode>& tones, Amplitudes& amplitudes) {
+  static_assert(kTones <= kMaxTonesPerCode, "so many stand in the list");
+  Eigen::Matrix<float, 2 * kTones, 2 * kTones> gram;
+  for (int r = 0; r < kTones; ++r)
+    for (int c = 0; c < kTones; ++c)
+      gram.template block<2, 2>(2 * r, 2 * c) =
+          bank.gram().block<2, 2>(2 * tones[static_cast<std::size_t>(r)], 2 * tones[static_cast<std::size_t>(c)]);
+  const Eigen::Matrix<float, 2 * kTones, 1> projections = amplitudes;
+  amplitudes = gram.ldlt().solve(projections);
+}
+
 /// Residual of flux * offset = shift with the best offset.
 float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& shift, float flux_square) {
   if (flux_square <= 0) return shift.square().sum();
@@ -32,6 +46,7 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 
 CodeReader::CodeReader(const CodeReaderParams& params, int slots)
     : params_(params),
+      margins_(params.code),
       wave_(slots),
       model_(slots),
       weights_(slots),
@@ -65,15 +80,12 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
     std::array<int, kMaxTonesPerCode> tones;
     for (int tone = 0, c = 0; tone < bank.tones(); ++tone)
       if (set.contains(tone)) tones[static_cast<std::size_t>(c++)] = tone;
-    SmallMatrix gram(2 * n, 2 * n);
     fit.amplitudes.resize(2 * n);
-    for (int r = 0; r < n; ++r) {
-      const int row = 2 * tones[static_cast<std::size_t>(r)];
-      fit.amplitudes.segment<2>(2 * r) = projections_.segment<2>(row);
-      for (int c = 0; c < n; ++c)
-        gram.block<2, 2>(2 * r, 2 * c) = bank.gram().block<2, 2>(row, 2 * tones[static_cast<std::size_t>(c)]);
-    }
-    gram.ldlt().solveInPlace(fit.amplitudes);
+    for (int k = 0; k < n; ++k)
+      fit.amplitudes.segment<2>(2 * k) = projections_.segment<2>(2 * tones[static_cast<std::size_t>(k)]);
+    // Alone a tone's two rows are orthonormal.
+    if (n == 2) fit_together<2>(bank, tones, fit.amplitudes);
+    if (n == 3) fit_together<3>(bank, tones, fit.amplitudes);
 
     TonePowers powers(bank.tones());
     for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
@@ -87,7 +99,7 @@ CodeReader::Fit CodeReader::fit_code(const ToneBank& bank, float noise_power) {
                 fit.amplitudes.segment<2>(2 * k);
       powers[tone] = left.squaredNorm() - noise_power;
     }
-    fit.code = decide_code(powers, params_.code);
+    fit.code = decide_code(powers, margins_);
     if (fit.code == set) return fit;
   }
   fit.code = ToneSet();

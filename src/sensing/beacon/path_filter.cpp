@@ -10,6 +10,7 @@ constexpr double kStillStepPx = 0.05;    ///< a predicted step longer than this 
 constexpr double kSurpriseSigmas = 4.0;  ///< twice in a row and in one direction: a standing blob has begun to move
 constexpr double kModelSigmaPx = 0.02;   ///< what the spot's shape leaves open
 constexpr double kBlurShare = 0.015, kMaxBlurSigmaPx = 0.2;  ///< ... and of a blur, by the way from frame to frame
+constexpr double kStartSpeedPxS = 10, kStartShare = 0.3;     ///< of one that stood, beside the prediction, one sigma
 constexpr double kMinJerk = 1e2, kMaxJerk = 1e9;
 
 }  // namespace
@@ -19,7 +20,7 @@ void PathFilter::start_still(double variance) {
   information_ = squares_ = 1.0 / variance;
 }
 
-void PathFilter::start_moving(double variance, double sigma_px_s) {
+void PathFilter::start_moving(double variance, double sigma_px_s, int doubted_updates) {
   constexpr double kAccelerationTime_s = 0.2;
   still_ = false;
   P_.setZero();
@@ -27,6 +28,7 @@ void PathFilter::start_moving(double variance, double sigma_px_s) {
   velocity_.setZero();
   acceleration_.setZero();
   near_frames_ = 0;
+  doubted_updates_ = doubted_updates;
 }
 
 double PathFilter::variance() const { return still_ ? squares_ / (information_ * information_) : P_(0, 0); }
@@ -41,7 +43,7 @@ void PathFilter::predict(const Eigen::Vector2d& predicted, double interval_s) {
   interval_s_ = interval_s;
   if (still_) {
     if (step.norm() < kStillStepPx) return;
-    start_moving(variance(), 0.3 * step.norm() / interval_s + 30.0);
+    start_moving(variance(), kStartShare * step.norm() / interval_s + kStartSpeedPxS);
   }
   const double t = interval_s;
   travel_px_ = (step + velocity_ * t).norm();
@@ -84,12 +86,14 @@ void PathFilter::stay(const Eigen::Vector2d& innovation, double variance) {
 
 double PathFilter::model_variance() const {
   // Light that changes within an exposure moves the middle of a blurred spot.
-  const double sigma = kModelSigmaPx + std::min(kMaxBlurSigmaPx, kBlurShare * travel_px_);
+  const double blur = std::min(kMaxBlurSigmaPx, kBlurShare * travel_px_);
+  const double sigma = kModelSigmaPx + (doubted_updates_ > 0 ? 2 * blur : blur);
   return sigma * sigma;
 }
 
 void PathFilter::move(const Eigen::Vector2d& innovation, double variance) {
   const double S = P_(0, 0) + variance + model_variance();
+  doubted_updates_ = std::max(0, doubted_updates_ - 1);
   const Eigen::Vector3d K = P_.col(0) / S;
   pixel_ += K[0] * innovation;
   velocity_ += K[1] * innovation;

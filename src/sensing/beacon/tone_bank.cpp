@@ -55,8 +55,9 @@ bool ToneBank::is_one_rhythm(const ToneSet& code) const {
   for (int k = 0; k < tones(); ++k)
     if (code.contains(k)) lowest_hz = std::min(lowest_hz, tones_hz_[static_cast<std::size_t>(k)]);
   for (int k = 0; k < tones(); ++k) {
+    if (!code.contains(k)) continue;
     const double beside_hz = std::remainder(tones_hz_[static_cast<std::size_t>(k)], lowest_hz);
-    if (code.contains(k) && std::abs(beside_hz) > kOff * lowest_hz) return false;
+    if (std::abs(beside_hz) > kOff * lowest_hz) return false;
   }
   return true;
 }

@@ -7,7 +7,10 @@
 
 namespace lodestar {
 
-ToneSet decide_code(const TonePowers& power, const ToneCodeParams& params) {
+ToneMargins::ToneMargins(const ToneCodeParams& params)
+    : balance(std::pow(10.0, -params.balance_db / 10.0)), margin(std::pow(10.0, -params.margin_db / 10.0)) {}
+
+ToneSet decide_code(const TonePowers& power, const ToneMargins& margins) {
   std::array<int, ToneSet::kMaxTones> order;
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.begin() + power.size(), [&](int a, int b) { return power[a] > power[b]; });
@@ -15,13 +18,11 @@ ToneSet decide_code(const TonePowers& power, const ToneCodeParams& params) {
     return rank < power.size() ? static_cast<double>(power[order[static_cast<std::size_t>(rank)]]) : 0.0;
   };
 
-  const double balance = std::pow(10.0, -params.balance_db / 10.0);
-  const double margin = std::pow(10.0, -params.margin_db / 10.0);
   ToneSet code;
   for (Eigen::Index n = 0; n < std::min<Eigen::Index>(kMaxTonesPerCode, power.size()); ++n) {
-    if (ranked(n) <= 0 || ranked(n) < balance * ranked(0)) return {};
+    if (ranked(n) <= 0 || ranked(n) < margins.balance * ranked(0)) return {};
     code.insert(order[static_cast<std::size_t>(n)]);
-    if (ranked(n + 1) <= margin * ranked(n)) return code;
+    if (ranked(n + 1) <= margins.margin * ranked(n)) return code;
   }
   return {};
 }

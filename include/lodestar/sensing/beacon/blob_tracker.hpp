@@ -52,7 +52,8 @@ class BlobTracker {
   bool look_for(BlobTrack& track, const FrameWindow& window, const Changes& risen, const ImageMotion& motion,
                 const PixelNoise& noise);
   bool take(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion, const PixelNoise& noise);
-  void begin_new(const FrameWindow& window, const Changes& risen, const ImageMotion& motion, const PixelNoise& noise);
+  void begin_new(const FrameWindow& window, const Changes& risen, const ImageMotion& motion, bool motion_known,
+                 const PixelNoise& noise);
   void look_back(BlobTrack& track, const FrameWindow& window, const ImageMotion& motion, const PixelNoise& noise) const;
   void drop_twins();
   /// Drops the others; the order, that of age, stays.

@@ -34,7 +34,6 @@ class ChangeScan {
   struct Change {
     Eigen::Vector2i pixel;  ///< upper left one of the cell
     float size;             ///< in sigmas of a cell's difference (risen), or of a spot's energy (restless)
-    float noise = 1;        ///< variance around a restless cell, over that of a dark pixel; at least 1
   };
   /// Cells that are brighter than `lag` frames ago by 6 sigma, and more so than their neighbours.
   const std::vector<Change>& risen() const { return risen_; }
@@ -54,6 +53,9 @@ class ChangeScan {
   /// Temporal variance of a dark pixel, grey levels squared: a clipped mean over the image, never below the variance
   /// of rounding, 1/12.
   double pixel_variance() const;
+  /// Temporal variance of the pixels around a restless cell, grey levels squared: that of a dark pixel, or more where
+  /// most of the cells three away hold more energy than chance gives them.
+  double variance_around(const Eigen::Vector2i& pixel) const;
 
  private:
   /// Rows begin where cache lines do.
@@ -78,9 +80,9 @@ class ChangeScan {
   /// border of cells shines on two or four of them. Each sum in sigmas of its own.
   template <class Lane>
   float spot_energy(const Lane* cell, std::ptrdiff_t stride) const;
-  /// Change::noise, from the cells three away. Most of them, so that another light among them does not count.
+  /// The median energy of the cells three away. Most of them, so that another light among them does not count.
   template <class Lane>
-  float noise_around(const Lane* cell, std::ptrdiff_t stride) const;
+  float energy_around(const Planes<Lane>& planes, const Eigen::Vector2i& cell) const;
   template <class Lane>
   void lower_limits(Planes<Lane>& planes);
   /// Calls `found(pixel, cell)` for the cells of flagged segments that pass their tile's limit and their neighbours.

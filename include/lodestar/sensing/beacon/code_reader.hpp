@@ -73,6 +73,7 @@ class CodeReader {
   void refine_centre(BlobTrack& track, const Reading& reading);
 
   CodeReaderParams params_;
+  ToneMargins margins_;
   Eigen::VectorXf projections_;
   Eigen::ArrayXf wave_;             ///< the code's part of the light, in each slot
   Eigen::ArrayXf model_, weights_;  ///< scratch, one a slot

@@ -31,11 +31,6 @@ class CommonMotion {
   /// After that: starts, or keeps what is common out of the blobs' own paths.
   void learn(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image);
 
-  /// Velocity of the beacons' image at a pixel, px/s.
-  Eigen::Vector2d flow(const Eigen::Vector2d& pixel, const ImageMotion& image) const {
-    return EgoMotion::J_flow_twist(pixel, *image.camera) * ego_.twist();
-  }
-
  private:
   /// How each track's image moves with the camera, from where the path has it now.
   void linearize(const Tracks& tracks, std::size_t count, const ImageMotion& image);

@@ -51,19 +51,22 @@ class EgoMotion {
   double flow_variance(const Jacobian& J) const;
 
  private:
+  /// The three rates of a twist that a kind of motion has begin at this one.
+  enum Kind { kTurning = 0, kDriving = 2 };
   struct Fit {
-    Twist twist = Twist::Zero();
-    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Vector3d rates = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     int agreeing = 0;
     double cost = 0;
   };
-  /// @param sigma of each component before anything was seen
-  static Fit fit(const std::vector<Flow>& flows, const Twist& sigma);
+  /// @param sigma of each rate before anything was seen
+  static Fit fit(const std::vector<Flow>& flows, Kind kind, double sigma);
+  Twist twist_of(const Eigen::Vector3d& rates) const;
 
   bool known_ = false;
   Twist twist_ = Twist::Zero(), trend_ = Twist::Zero();  ///< and its change from frame to frame
-  Twist freedom_ = Twist::Zero();  ///< 1 where the kind of motion has it, next to nothing elsewhere
-  Eigen::Matrix<double, 6, 6> covariance_ = Eigen::Matrix<double, 6, 6>::Zero();  ///< of the newest step
+  Kind kind_ = kDriving;
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< of the newest step's rates
   double step_sigma_ = 0;  ///< of what a frame brings beside the trend; follows what the blobs say
   int doubted_ = 0;
 };

@@ -15,7 +15,9 @@ class PathFilter {
   /// Begins as a standing blob of known variance (px^2).
   void start_still(double variance);
   /// Begins as a moving one. @param sigma_px_s of its velocity beside the prediction
-  void start_moving(double variance, double sigma_px_s);
+  /// @param doubted_updates for which a blur counts twice: lit for part of an exposure only, it shows a place up to a
+  /// pixel off, and among the first few that turns the velocity
+  void start_moving(double variance, double sigma_px_s, int doubted_updates = 0);
 
   /// @param predicted where the camera's motion takes the blob by the newest frame
   void predict(const Eigen::Vector2d& predicted, double interval_s);
@@ -64,6 +66,7 @@ class PathFilter {
   Eigen::Vector2d last_surprise_ = Eigen::Vector2d::Zero();  ///< innovation of the frame before, if it was one
   Eigen::Vector2d quiet_pixel_ = Eigen::Vector2d::Zero();    ///< a moving blob has kept near it for near_frames_
   int quiet_frames_ = 0, near_frames_ = 0;
+  int doubted_updates_ = 0;  ///< still to come
 };
 
 }  // namespace lodestar

@@ -8,9 +8,9 @@ namespace {
 using test::MotionCase;
 using Path = MotionCase::Path;
 
-void expect_within_limits(const MotionCase& motion, const std::string& what, double least_identified = 0.99) {
+void expect_within_limits(const MotionCase& motion, const std::string& what) {
   const test::MotionTally tally = test::motion_windows(motion, 600, 1);
-  EXPECT_GE(tally.identified(), least_identified) << what;
+  EXPECT_GE(tally.identified(), 0.99) << what;
   EXPECT_EQ(tally.wrong, 0) << what;
   EXPECT_EQ(tally.ghosts, 0) << what;
   if (motion.stamp_offset_s != 0) return;  // where the beacon is at a wrong instant is no error of the centre
@@ -32,10 +32,7 @@ INSTANTIATE_TEST_SUITE_P(InputAndWaveform, Motion, testing::Combine(testing::Boo
 TEST_P(Motion, LinearUpToSixteenPixelsAFrame) {
   for (const double speed : {0., 1., 3., 6., 12., 16.}) {
     motion_.speed = speed;
-    // On-off codes at 16 px a frame are short of 99 %: 98.1 and 98.7 % of 5 889 windows, with and without odometry. 600
-    // windows are 120 beacons.
-    const bool short_of_it = motion_.square && speed > 12;
-    expect_within_limits(motion_, std::to_string(speed) + " px a frame", short_of_it ? 0.97 : 0.99);
+    expect_within_limits(motion_, std::to_string(speed) + " px a frame");
   }
 }
 
@@ -86,18 +83,19 @@ TEST(Follow, FirstSightingGhostsAndReturn) {
   constexpr int kN = 30;
   for (const double speed_px : {0., 2.}) {
     for (const bool input : {true, false}) {
-      for (const int hidden : {5, 10, 15, 40}) {
+      for (const int hidden : {5, 15, 40, 60}) {
         for (unsigned seed = 0; seed < 2; ++seed) {
           test::DarkAndHidden trial;
           trial.speed_px = speed_px;
           trial.motion_input = input;
           trial.hidden_frames = hidden;
+          trial.light = seed == 0 ? 300 : 100;
           trial.run(seed);
           std::string what = std::to_string(speed_px) + " px a frame, ";
           what += std::string(input ? "odometry" : "camera alone") + ", hidden for " + std::to_string(hidden);
           EXPECT_LE(trial.frames_until_seen.value_or(999), kN + 5) << what;
           EXPECT_LE(trial.last_ghost_frame, 3) << what;
-          EXPECT_LE(trial.frames_until_back.value_or(999), hidden < kN ? kN / 2 + 5 : kN + 5) << what;
+          EXPECT_LE(trial.frames_until_back.value_or(999), kN / 2 + 5) << what;
           EXPECT_EQ(trial.gaps, 0) << what;
           EXPECT_EQ(trial.wrong, 0) << what;
         }

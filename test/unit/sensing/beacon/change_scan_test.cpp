@@ -92,7 +92,7 @@ TEST_P(ChangeScanBits, SaysWhatTheNoiseAroundAFlashIs) {
     if (i < 60) continue;
     ++frames;
     for (const auto& change : scan.restless()) {
-      const double variance = static_cast<double>(change.noise) * scan.pixel_variance();
+      const double variance = scan.variance_around(change.pixel);
       if (change.pixel == Eigen::Vector2i(30, 40)) dark += variance;
       if (change.pixel == Eigen::Vector2i(100, 40)) lit += variance;
     }
