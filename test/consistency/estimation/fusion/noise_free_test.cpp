@@ -46,8 +46,11 @@ TEST(NoiseFree, a_turn_on_the_wheels_alone_ends_where_it_should) {
   const TruckDrive drive(round_the_hall(), 3);
   TruckSensors sensors(drive, SensorErrors::none(), 4);
   PoseFilter filter{PoseFilterParams{}};
-  for (const Sample& s : run_filter(filter, drive, sensors, run))
-    if (s.t_s > 12.2 && s.t_s < 15) EXPECT_LT(std::abs(s.error[5]), 0.002) << s.t_s;
+  for (const Sample& s : run_filter(filter, drive, sensors, run)) {
+    if (s.t_s > 12.2 && s.t_s < 15) {
+      EXPECT_LT(std::abs(s.error[5]), 0.002) << s.t_s;
+    }
+  }
 }
 
 }  // namespace
