@@ -47,7 +47,7 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
   }
   const int corrections = clock_.corrections();
   if (const auto drop = clock_.accept(announcement)) return drop;
-  if (clock_.corrections() != corrections) forget_recordings();
+  if (clock_.corrections() != corrections) forget_recordings(announcement);
 
   Entry& entry = entries_[announcement.beacon];
   const auto drop =
@@ -59,7 +59,7 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
 
 std::optional<IrDrop> BeaconTable::compare_with_site(Entry& entry, const Announcement& announcement) {
   const Beacon& beacon = entry.beacon;
-  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement)) set_conflict(entry, true);
+  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement)) contradict(entry, announcement);
   if (entry.conflict) return IrDrop::kConflict;
   return std::nullopt;
 }
@@ -75,20 +75,31 @@ std::optional<IrDrop> BeaconTable::compare_with_past(Entry& entry, const Announc
     learn(entry, announcement);
     return std::nullopt;
   }
-  set_conflict(entry, true);
+  contradict(entry, announcement);
   return IrDrop::kConflict;
 }
 
-void BeaconTable::forget_recordings() {
+/// A frame too early shows the phase to be late, be it by a recording or by a receiver that was late itself. Only what
+/// a recording said goes.
+void BeaconTable::forget_recordings(const Announcement& true_frame) {
+  const auto recorded = [&](const std::optional<Announcement>& word) {
+    return word && clock_.is_recording(*word, true_frame);
+  };
   for (auto next = entries_.begin(); next != entries_.end();) {
     const auto known = next++;
-    if (known->second.in_site_file) {
-      set_conflict(known->second, false);
-    } else {
-      entries_.erase(known);
-      ++revision_;
-    }
+    Entry& entry = known->second;
+    if (entry.conflict && recorded(entry.contradiction)) set_conflict(entry, false);
+    if (!recorded(entry.last)) continue;
+    entry.last.reset();
+    if (entry.in_site_file) continue;
+    entries_.erase(known);
+    ++revision_;
   }
+}
+
+void BeaconTable::contradict(Entry& entry, const Announcement& announcement) {
+  if (!entry.conflict) entry.contradiction = announcement;
+  set_conflict(entry, true);
 }
 
 void BeaconTable::set_conflict(Entry& entry, bool conflict) {
@@ -110,7 +121,9 @@ void BeaconTable::learn(Entry& entry, const Announcement& announcement) {
 
 void BeaconTable::distrust(BeaconId id) {
   const auto known = entries_.find(id);
-  if (known != entries_.end()) set_conflict(known->second, true);
+  if (known == entries_.end() || known->second.conflict) return;
+  known->second.contradiction.reset();
+  set_conflict(known->second, true);
 }
 
 bool BeaconTable::confirm(BeaconId id) {
@@ -146,7 +159,10 @@ std::vector<BeaconId> BeaconTable::heard(Stamp now, Duration max_age) const {
 
 void BeaconTable::reset_time() {
   clock_.reset();
-  for (auto& [id, entry] : entries_) entry.last.reset();
+  for (auto& [id, entry] : entries_) {
+    entry.last.reset();
+    entry.contradiction.reset();
+  }
 }
 
 }  // namespace lodestar

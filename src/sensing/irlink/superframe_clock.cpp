@@ -17,10 +17,16 @@ double elapsed_s(Stamp a, Stamp b) {
   return (static_cast<double>(b.time_since_epoch().count()) - static_cast<double>(a.time_since_epoch().count())) * 1e-9;
 }
 
+double drift_s(Stamp a, Stamp b) { return kClockError * std::abs(elapsed_s(a, b)); }
+
 }  // namespace
 
 SuperframeClock::SuperframeClock(const Link& link)
     : slot_s_(link.slot_s), superframe_s_(link.slot_s * link.slot_count), has_key_(link.key.has_value()) {}
+
+SuperframeClock::Instant SuperframeClock::instant_of(const Announcement& announcement) {
+  return {announcement.stamp, announcement.superframe, announcement.slot};
+}
 
 /// By how much the frame comes later after the reference than counter and slot say.
 double SuperframeClock::late_s(const Instant& reference, const Instant& instant) const {
@@ -30,8 +36,11 @@ double SuperframeClock::late_s(const Instant& reference, const Instant& instant)
 }
 
 bool SuperframeClock::in_phase(const Instant& reference, const Instant& instant) const {
-  const double drift_s = kClockError * std::abs(elapsed_s(reference.stamp, instant.stamp));
-  return std::abs(late_s(reference, instant)) <= kSlotShare * slot_s_ + drift_s;
+  return std::abs(late_s(reference, instant)) <= kSlotShare * slot_s_ + drift_s(reference.stamp, instant.stamp);
+}
+
+bool SuperframeClock::is_recording(const Announcement& before, const Announcement& true_frame) const {
+  return late_s(instant_of(before), instant_of(true_frame)) < -superframe_s_ - drift_s(before.stamp, true_frame.stamp);
 }
 
 /// Whether the beacon's own counter has grown.
@@ -59,7 +68,7 @@ void SuperframeClock::take(const Instant& instant, BeaconId beacon) {
 }
 
 std::optional<IrDrop> SuperframeClock::accept(const Announcement& announcement) {
-  const Instant instant{announcement.stamp, announcement.superframe, announcement.slot};
+  const Instant instant = instant_of(announcement);
   const bool old = newest_ && elapsed_s(newest_->stamp, instant.stamp) < -superframe_s_;
   if (newest_ && !in_phase(*newest_, instant)) {
     const double late = late_s(*newest_, instant);

@@ -18,7 +18,7 @@ namespace lodestar {
 ///   any axis of map (sigma: the file's sigma_m with the rounding to mm) or in its tones is a conflict: it is dropped
 ///   and takes the beacon out of force until somebody confirms it, for a beacon that was moved or swapped once may hang
 ///   anywhere. The file's position is the one in use. On a site with a key a conflict that a recording made, heard
-///   before the first true frame, is taken back with that frame.
+///   before the first true frame, is taken back with that frame; one that a true frame made stays.
 /// - Not in the site file: the first announcement puts the beacon in force where it says, with sigma_m 0.01 when it
 ///   calls itself surveyed and 0.10 when not, and later ones within 3 sigma keep it up to date. One that jumps or
 ///   changes tones is a conflict and takes it out of force; the third in a row that agree with one another is believed.
@@ -33,8 +33,9 @@ class BeaconTable {
   struct Entry {
     Beacon beacon;
     bool in_site_file = false;
-    bool conflict = false;             ///< with the site file or with its own earlier word: not used
-    std::optional<Announcement> last;  ///< heard in time, agreeing or not; empty: never heard
+    bool conflict = false;                      ///< with the site file or with its own earlier word: not used
+    std::optional<Announcement> contradiction;  ///< that made the conflict; empty: another's word did
+    std::optional<Announcement> last;           ///< heard in time, agreeing or not; empty: never heard
     std::uint64_t heard = 0;
     int repeats = 0;  ///< announcements in a row that agree with one another
   };
@@ -74,7 +75,8 @@ class BeaconTable {
   std::optional<IrDrop> judge(const Announcement& announcement);
   std::optional<IrDrop> compare_with_site(Entry& entry, const Announcement& announcement);
   std::optional<IrDrop> compare_with_past(Entry& entry, const Announcement& announcement);
-  void forget_recordings();
+  void forget_recordings(const Announcement& true_frame);
+  void contradict(Entry& entry, const Announcement& announcement);
   void set_conflict(Entry& entry, bool conflict);
   void learn(Entry& entry, const Announcement& announcement);
 

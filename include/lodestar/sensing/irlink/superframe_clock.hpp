@@ -38,6 +38,10 @@ class SuperframeClock {
   /// How often the phase was found late: what was accepted before may have been a stranger's recording.
   int corrections() const { return corrections_; }
 
+  /// Whether `before` came later than its counter says by more than a superframe, as the true frame counts. What comes
+  /// late by less says no more than the beacon itself says then.
+  bool is_recording(const Announcement& before, const Announcement& true_frame) const;
+
   /// Forgets everything: the next frame is believed.
   void reset();
 
@@ -47,6 +51,7 @@ class SuperframeClock {
     std::uint32_t superframe;
     int slot;
   };
+  static Instant instant_of(const Announcement& announcement);
   double late_s(const Instant& reference, const Instant& instant) const;
   bool in_phase(const Instant& reference, const Instant& instant) const;
   bool advances(const Instant& instant, BeaconId beacon) const;

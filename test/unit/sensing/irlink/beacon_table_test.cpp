@@ -108,6 +108,42 @@ TEST(BeaconTable, without_a_list_a_beacon_that_a_recording_made_goes_with_the_fi
   EXPECT_EQ(in_force()[0].id, BeaconId{2});
 }
 
+TEST(BeaconTable, the_place_that_a_recording_said_cannot_be_confirmed_once_it_is_found_out) {
+  Site site = site_with_list();
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  BeaconTable table(site);
+  table.accept(heard(1, 5, 1000, kPosition + Eigen::Vector3d(2, 0, 0)));
+  table.accept(heard(2, 505, 1000 - 500 * 0.8));
+  EXPECT_FALSE(table.confirm(BeaconId{1}));
+}
+
+// The photodiodes' board starts anew and its first stamps are late.
+TEST(BeaconTable, a_board_that_was_late_makes_nobody_forget_what_true_frames_said) {
+  Site site;
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  site.beacons = {site_with_list().beacons[0]};
+  BeaconTable table(site);
+  const Eigen::Vector3d moved = kPosition + Eigen::Vector3d(2, 0, 0);
+  EXPECT_EQ(table.accept(heard(1, 5, 1000.1, moved)), IrDrop::kConflict);
+  EXPECT_EQ(table.accept(heard(3, 5, 1000.1)), std::nullopt);
+  EXPECT_EQ(table.accept(heard(4, 6)), std::nullopt) << "too early for that phase, and so true";
+  EXPECT_TRUE(entry(table, 1).conflict);
+  EXPECT_EQ(table.beacons().size(), 2u) << "3 and 4";
+  EXPECT_TRUE(table.confirm(BeaconId{1}));
+}
+
+TEST(BeaconTable, a_conflict_that_a_true_frame_made_outlives_a_recording_of_the_same) {
+  Site site = site_with_list();
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  BeaconTable table(site);
+  EXPECT_EQ(table.accept(heard(1, 5, 1000, kPosition + Eigen::Vector3d(2, 0, 0))), IrDrop::kConflict);
+  for (std::uint32_t superframe = 6; superframe < 6 + SuperframeClock::kFramesToLearn; ++superframe)
+    table.accept(heard(1, superframe, 1060));
+  EXPECT_GT(entry(table, 1).last->superframe, 5u) << "learnt: they are newer than all that was heard";
+  EXPECT_EQ(table.accept(heard(2, 100)), std::nullopt);
+  EXPECT_TRUE(entry(table, 1).conflict);
+}
+
 TEST(BeaconTable, a_beacon_that_was_hung_up_anew_is_used_where_it_says_once_confirmed) {
   const Eigen::Vector3d moved = kPosition + Eigen::Vector3d(0, 2, 0);
   BeaconTable table(site_with_list());
