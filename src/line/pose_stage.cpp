@@ -52,7 +52,6 @@ auto PoseStage::with_tilt(const Sightings& sightings, Solve&& solve) const
 }
 
 Result<Fix, NoFix> PoseStage::process(const Sightings& sightings, const std::vector<Arrival>& arrivals) {
-  if (!sightings.sightings.empty()) last_seen_ = sightings.stamp;
   std::vector<Witness> witnesses;
   for (const Arrival& arrival : arrivals)
     if (const Beacon* beacon = find(arrival.beacon))
@@ -60,7 +59,10 @@ Result<Fix, NoFix> PoseStage::process(const Sightings& sightings, const std::vec
   auto result = with_tilt(sightings, [&](const BeaconBearings& bearings, const Tilt& tilt) {
     return solver_.solve(bearings, tilt, camera_.T_base_camera, {}, witnesses);
   });
-  if (!result) refusals_.add(result.error());
+  if (result)
+    last_fix_ = sightings.stamp;
+  else
+    refusals_.add(result.error());
   return result;
 }
 
@@ -77,8 +79,8 @@ const Beacon* PoseStage::find(BeaconId id) const {
 }
 
 bool PoseStage::coarse_fix_due(Stamp now) {
-  if (!last_seen_) last_seen_ = now;
-  return now - *last_seen_ > kBlindAfter && (!last_coarse_fix_ || now - *last_coarse_fix_ >= kCoarseEvery);
+  if (!last_fix_) last_fix_ = now;
+  return now - *last_fix_ > kBlindAfter && (!last_coarse_fix_ || now - *last_coarse_fix_ >= kCoarseEvery);
 }
 
 Result<Fix, NoFix> PoseStage::coarse_fix(const std::vector<Arrival>& arrivals, const RigidTransform& T_base_ir,
@@ -99,7 +101,7 @@ Result<Fix, NoFix> PoseStage::coarse_fix(const std::vector<Arrival>& arrivals, c
 
 void PoseStage::reset() {
   tilt_.reset();
-  last_seen_.reset();
+  last_fix_.reset();
   last_coarse_fix_.reset();
 }
 

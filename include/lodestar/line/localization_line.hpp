@@ -35,7 +35,7 @@ class LocalizationLine {
   void add_imu(const ImuSample& sample);
   void add_odometry(const OdometrySample& sample);
 
-  /// The accepted announcement, or why the frame was dropped. While the camera is blind one a second makes a
+  /// The accepted announcement, or why the frame was dropped. While the camera makes no fix one a second makes a
   /// coarse fix.
   Result<Announcement, IrDrop> add_ir_frame(const RawIrFrame& frame);
   /// Frames from the samples of the other kind of receiver; each goes through add_ir_frame.

@@ -20,8 +20,8 @@ namespace lodestar {
 BeaconBearings bearings(const Sightings& sightings, const CameraModel& camera, const std::vector<Beacon>& beacons,
                         double calibration_sigma_px);
 
-/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver. While the camera sees nothing, the directions
-/// that announcements came from make a coarse fix.
+/// Sightings in, fix out: the tilt from gravity and the 4-DOF solver. While the camera makes no fix, the
+/// directions that announcements came from make a coarse one.
 class PoseStage {
  public:
   PoseStage(const PoseSolverParams& solver, const TiltFilterParams& tilt, double calibration_sigma_px);
@@ -37,7 +37,7 @@ class PoseStage {
   /// @param arrivals tell two poses apart that the sightings leave
   Result<Fix, NoFix> process(const Sightings& sightings, const std::vector<Arrival>& arrivals);
 
-  /// No blob with a code was seen for kBlindAfter before `now`, or since this was asked first; and the coarse fix
+  /// The camera made no fix for kBlindAfter before `now`, or since this was asked first; and the coarse fix
   /// before is kCoarseEvery ago, so that no frame counts in several.
   bool coarse_fix_due(Stamp now);
   /// The pose of base_link at `stamp` from arrivals alone, some decimetres wide (docs/math/irlink.md).
@@ -65,7 +65,7 @@ class PoseStage {
   double calibration_sigma_px_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;
-  std::optional<Stamp> last_seen_;  ///< blob with a code; until there is one: the start
+  std::optional<Stamp> last_fix_;  ///< of the camera; until there is one: the start
   std::optional<Stamp> last_coarse_fix_;
   DropCounts<NoFix> refusals_;
 };

@@ -64,7 +64,7 @@ void PoseSolvingNodelet::take_sightings(const BeaconSightingArrayConstPtr& messa
   fix_watch_->tick();
 }
 
-/// While the camera is blind, one announcement a second makes a coarse fix.
+/// While the camera makes no fix, one announcement a second makes a coarse fix.
 void PoseSolvingNodelet::take_announcement(const Announcement& announcement) {
   Arrivals& arrivals = arrivals_->arrivals();
   arrivals.add(announcement);
