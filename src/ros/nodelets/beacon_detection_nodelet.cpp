@@ -79,6 +79,7 @@ void BeaconDetectionNodelet::make_stage() {
   heard_for_ = params.heard_for;
   stage_ = std::make_unique<DetectionStage>(params.detector, params.namer);
   camera_revision_ = 0;
+  contradicted_ = 0;
 }
 
 void BeaconDetectionNodelet::take_image(const sensor_msgs::ImageConstPtr& message) {

@@ -8,9 +8,9 @@ constexpr double kWarning_s = 10;
 constexpr double kLongest_s = 10;  // that the channel is listened to before it is judged
 constexpr std::uint64_t kFrames = 10, kFewestSpoilt = 5;
 
-constexpr IrDrop kStrange[] = {IrDrop::kSlot,      IrDrop::kUnsigned, IrDrop::kTag,      IrDrop::kSuperframe,
-                               IrDrop::kStamp,     IrDrop::kReserved, IrDrop::kVersion,  IrDrop::kType,
-                               IrDrop::kDirection, IrDrop::kTones,    IrDrop::kConflict, IrDrop::kFull};
+constexpr IrDrop kStrange[] = {IrDrop::kSlot,      IrDrop::kUnsigned, IrDrop::kTag,     IrDrop::kSuperframe,
+                               IrDrop::kStamp,     IrDrop::kReserved, IrDrop::kVersion, IrDrop::kType,
+                               IrDrop::kDirection, IrDrop::kTones,    IrDrop::kFull};
 
 }  // namespace
 

@@ -50,14 +50,18 @@ TEST(StrangerWatch, bad_light_and_noise_are_no_jammer) {
 }
 
 TEST(StrangerWatch, whatever_no_beacon_of_the_site_sends_is_named_for_ten_seconds) {
-  for (const IrDrop reason : {IrDrop::kSlot, IrDrop::kSuperframe, IrDrop::kTag, IrDrop::kUnsigned, IrDrop::kConflict,
-                              IrDrop::kDirection, IrDrop::kStamp, IrDrop::kTones}) {
+  for (const IrDrop reason : {IrDrop::kSlot, IrDrop::kSuperframe, IrDrop::kTag, IrDrop::kUnsigned, IrDrop::kDirection,
+                              IrDrop::kStamp, IrDrop::kTones}) {
     Channel channel;
     EXPECT_EQ(channel.after(5, 0), "");
     EXPECT_EQ(channel.after(5, 1, reason), std::string("frames that no beacon of this site sends: 1 ") + name(reason));
     for (int second = 0; second < 10; ++second) EXPECT_NE(channel.after(5, 0), "") << second;
     EXPECT_EQ(channel.after(5, 0), "");
   }
+}
+
+TEST(StrangerWatch, a_beacon_of_the_site_that_was_moved_is_no_stranger) {
+  EXPECT_EQ(Channel().after(5, 5, IrDrop::kConflict), "");
 }
 
 }  // namespace
