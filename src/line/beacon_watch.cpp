@@ -72,9 +72,9 @@ std::vector<Beacon> BeaconWatch::trusted(const std::vector<Beacon>& beacons) con
   return out;
 }
 
-void BeaconWatch::confirm(BeaconId id) {
-  distrusted_.erase(id);
+bool BeaconWatch::confirm(BeaconId id) {
   disagreed_s_.erase(id);
+  return distrusted_.erase(id) > 0;
 }
 
 }  // namespace lodestar

@@ -70,9 +70,10 @@ void FusionStage::distrust(const std::set<BeaconId>& ids) {
   pick_trusted();
 }
 
-void FusionStage::confirm(BeaconId id) {
-  watch_.confirm(id);
+bool FusionStage::confirm(BeaconId id) {
+  const bool was_distrusted = watch_.confirm(id);
   pick_trusted();
+  return was_distrusted;
 }
 
 void FusionStage::add_fix(const Fix& fix) {

@@ -122,6 +122,14 @@ TEST_F(PoseSolving, FixesLieAtTheTruthAndBadInputIsCounted) {
   EXPECT_TRUE(wait_for([&] { return fixes_.size() > before_jump + 5; }));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
   EXPECT_LT(offset_from_truth(player_.truth(), fixes_.last()).position_m, 0.10);
+
+  // Without images the photodiodes make the fixes.
+  EXPECT_EQ(diagnostics_.count(kNode, "coarse fixes without the camera"), 0);
+  player_.on<sensor_msgs::Image>("/camera/image_raw", [](const sensor_msgs::Image&) { return false; });
+  player_.rewind();
+  player_.play(4.0);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "coarse fixes without the camera") > 0; }));
+  EXPECT_LT(offset_from_truth(player_.truth(), fixes_.last()).position_m, 0.5);
 }
 
 }  // namespace

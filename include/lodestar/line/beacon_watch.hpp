@@ -38,7 +38,8 @@ class BeaconWatch {
   std::vector<Beacon> trusted(const std::vector<Beacon>& beacons) const;
   /// What was distrusted before this watch began.
   void distrust(const std::set<BeaconId>& ids) { distrusted_.insert(ids.begin(), ids.end()); }
-  void confirm(BeaconId id);
+  /// Whether it was distrusted.
+  bool confirm(BeaconId id);
 
   /// Time went backwards.
   void reset_time() { last_.reset(); }

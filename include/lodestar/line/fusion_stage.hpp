@@ -40,7 +40,8 @@ class FusionStage {
   const std::vector<Beacon>& trusted() const { return trusted_; }
   /// Those of an earlier run.
   void distrust(const std::set<BeaconId>& ids);
-  void confirm(BeaconId id);
+  /// Whether it was distrusted.
+  bool confirm(BeaconId id);
 
   const PoseFilter& filter() const { return filter_; }
   const PlaceHypotheses& places() const { return places_; }

@@ -1,32 +1,59 @@
 #include "lodestar/ros/nodelets/memory_file.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "lodestar/base/common/replace_file.hpp"
 
 namespace lodestar {
 
-void MemoryFile::load(const std::function<bool(const std::string&)>& understand, const std::string& loss) {
-  std::error_code none;
-  if (!kept() || !std::filesystem::exists(path_, none)) return;
+namespace {
+
+/// Empty, with errno: it cannot be read.
+std::optional<std::string> octets_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
   try {
-    std::ifstream stream(path_, std::ios::binary);
-    if (stream && understand(std::string(std::istreambuf_iterator<char>(stream), {}))) return;
-  } catch (const std::exception&) {
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  } catch (const std::ios_base::failure&) {
+    return std::nullopt;
   }
-  const std::string aside = path_ + ".broken";
-  std::filesystem::rename(path_, aside, none);
-  fault_ = path_ + " cannot be understood: set aside as " + aside + ", and " + loss;
+}
+
+bool understood(const std::function<bool(const std::string&)>& understand, const std::string& octets) {
+  try {
+    return understand(octets);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+void MemoryFile::load(const std::function<bool(const std::string&)>& understand, const std::string& loss) {
+  if (!kept()) return;
+  const auto octets = octets_of(path_);
+  if (!octets && errno == ENOENT) return;
+  if (octets && understood(understand, *octets)) return;
+  std::string fate = std::string(" cannot be read: ") + std::strerror(errno);
+  untouchable_ = true;
+  if (octets) {
+    const std::string aside = path_ + ".broken";
+    untouchable_ = std::rename(path_.c_str(), aside.c_str()) != 0;
+    fate = " cannot be understood: " +
+           (untouchable_ ? std::string("not set aside, ") + std::strerror(errno) : "set aside as " + aside);
+  }
+  not_loaded_ = path_ + fate + ", and " + loss + (untouchable_ ? "; nothing new is kept" : "");
 }
 
 void MemoryFile::save(const std::string& octets) {
-  if (!kept()) return;
-  fault_ = replace_file(path_, octets) ? "" : path_ + " cannot be written: " + std::strerror(errno);
+  if (!kept() || untouchable_) return;
+  not_saved_ = replace_file(path_, octets) ? "" : path_ + " cannot be written: " + std::strerror(errno);
 }
 
 }  // namespace lodestar

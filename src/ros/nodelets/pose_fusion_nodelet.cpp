@@ -66,9 +66,8 @@ void PoseFusionNodelet::onInit() {
   sightings_ = nh.subscribe("beacons/sightings", 10, &PoseFusionNodelet::take_sightings, this);
   fix_ = nh.subscribe("beacons/fix", 10, &PoseFusionNodelet::take_fix, this);
   confirmed_ =
-      nh.subscribe<BeaconAnnouncement>("beacons/confirmed", 10, [this](const BeaconAnnouncementConstPtr& message) {
-        stage_->confirm(BeaconId{message->beacon_id});
-        distrusted_->set(stage_->distrusted());
+      nh.subscribe<BeaconAnnouncement>("beacons/confirmed", 200, [this](const BeaconAnnouncementConstPtr& message) {
+        if (stage_->confirm(BeaconId{message->beacon_id})) distrusted_->set(stage_->distrusted());
       });
 }
 
