@@ -75,6 +75,8 @@ class AravisSource : public FrameSource {
 
   CameraLimits limits();
   void set_format(const CameraSettings& settings);
+  template <class Available, class Set, class Get>
+  void stop(const char* automatic, Available available, Set set, Get get);
   void make_manual();
   void refuse_beyond_limits(const CameraSettings& settings);
   void apply(const CameraSettings& settings);
@@ -149,10 +151,21 @@ void AravisSource::set_format(const CameraSettings& settings) {
     call(arv_camera_set_region, x, y, settings.width_px.value_or(width), settings.height_px.value_or(height));
 }
 
+template <class Available, class Set, class Get>
+void AravisSource::stop(const char* automatic, Available available, Set set, Get get) {
+  if (!call(available)) return;
+  GError* error = nullptr;
+  set(camera_.get(), ARV_AUTO_OFF, &error);
+  g_clear_error(&error);  // it is asked whether it did; one that is gone does not answer
+  if (call(get) != ARV_AUTO_OFF) throw CameraRefusal({{name_, 0, std::string(automatic) + " stays automatic"}});
+}
+
 void AravisSource::make_manual() {
-  if (call(arv_camera_is_exposure_auto_available)) call(arv_camera_set_exposure_time_auto, ARV_AUTO_OFF);
-  if (call(arv_camera_is_gain_auto_available)) call(arv_camera_set_gain_auto, ARV_AUTO_OFF);
-  if (call(arv_camera_is_black_level_auto_available)) call(arv_camera_set_black_level_auto, ARV_AUTO_OFF);
+  stop("exposure", arv_camera_is_exposure_auto_available, arv_camera_set_exposure_time_auto,
+       arv_camera_get_exposure_time_auto);
+  stop("gain", arv_camera_is_gain_auto_available, arv_camera_set_gain_auto, arv_camera_get_gain_auto);
+  stop("black level", arv_camera_is_black_level_auto_available, arv_camera_set_black_level_auto,
+       arv_camera_get_black_level_auto);
 }
 
 void AravisSource::refuse_beyond_limits(const CameraSettings& settings) {

@@ -1,6 +1,9 @@
 #include "lodestar/sensing/camera/v4l2_source.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
@@ -313,24 +316,48 @@ TEST(V4l2, DevicesThatAreNone) {
   EXPECT_THROW(open_source("v4l2:/dev/null")->start({}, memory.allocator()), CameraError);
 }
 
-/// /dev/video*, in order.
-std::set<std::string> video_devices() {
+/// Why this device is no camera that a test may use; empty: it is one.
+std::string why_not(const std::string& device) {
+  const int file = open(device.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return device + ": " + std::strerror(errno) + "\n";
+  v4l2_capability capability{};
+  const bool answers = ioctl(file, VIDIOC_QUERYCAP, &capability) == 0;
+  close(file);
+  if (!answers) return device + ": " + std::strerror(errno) + "\n";
+  const std::uint32_t can =
+      capability.capabilities & V4L2_CAP_DEVICE_CAPS ? capability.device_caps : capability.capabilities;
+  return can & V4L2_CAP_VIDEO_CAPTURE ? "" : device + ": it does not capture video\n";
+}
+
+struct CameraHere {
+  std::string device;  ///< the first of /dev/video* that captures; empty: none
+  std::string why_not;
+};
+
+CameraHere camera_of_this_machine() {
   std::set<std::string> devices;
   for (const auto& entry : std::filesystem::directory_iterator("/dev"))
     if (entry.path().filename().string().rfind("video", 0) == 0) devices.insert(entry.path());
-  return devices;
+  if (devices.empty()) return {"", "this machine has no /dev/video*"};
+  std::string faults;
+  for (const std::string& device : devices) {
+    const std::string fault = why_not(device);
+    if (fault.empty()) return {device, ""};
+    faults += fault;
+  }
+  return {"", faults};
 }
 
 // Where a machine has a camera: the kernel itself instead of the fake. Test patterns will do (modprobe vivid).
 TEST(V4l2, TheFirstCameraOfThisMachineStreams) {
-  const auto devices = video_devices();
-  if (devices.empty()) GTEST_SKIP() << "this machine has no /dev/video*";
+  const CameraHere here = camera_of_this_machine();
+  if (here.device.empty()) GTEST_SKIP() << here.why_not;
   test::HeapFrames memory;
   CameraSettings beyond;
   beyond.exposure_s = 1e6;
-  EXPECT_THROW(open_source("v4l2:" + *devices.begin())->start(beyond, memory.allocator()), CameraRefusal);
+  EXPECT_THROW(open_source("v4l2:" + here.device)->start(beyond, memory.allocator()), CameraRefusal);
 
-  const auto source = open_source("v4l2:" + *devices.begin());
+  const auto source = open_source("v4l2:" + here.device);
   const SourceInfo info = source->start({}, memory.allocator());
   std::vector<DeviceFrame> frames;
   for (int tries = 0; frames.size() < 10 && tries < 20; ++tries)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "lodestar/sensing/camera/open_source.hpp"
 #include "support/camera/fake_gige_camera.hpp"
 #include "support/camera/heap_frames.hpp"
+
+#if LODESTAR_HAS_ARAVIS
+#include <arv.h>
+#endif
 
 namespace lodestar {
 namespace {
@@ -93,6 +98,21 @@ TEST_F(AravisSourceTest, LimitsAreTheCameras) {
               "gige:127.0.0.1: pixel_format is 'mjpeg', the camera has mono8, mono16: choose one of these\n");
   }
 }
+
+#if LODESTAR_HAS_ARAVIS
+/// The fake camera as Aravis itself opens it.
+std::unique_ptr<ArvCamera, void (*)(gpointer)> by_aravis() {
+  return {arv_camera_new("127.0.0.1", nullptr), g_object_unref};
+}
+
+TEST_F(AravisSourceTest, AutomaticsAreStopped) {
+  const FakeGigeCamera camera;
+  arv_camera_set_gain_auto(by_aravis().get(), ARV_AUTO_CONTINUOUS, nullptr);
+  ASSERT_EQ(arv_camera_get_gain_auto(by_aravis().get(), nullptr), ARV_AUTO_CONTINUOUS);
+  open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
+  EXPECT_EQ(arv_camera_get_gain_auto(by_aravis().get(), nullptr), ARV_AUTO_OFF);
+}
+#endif
 
 TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const FakeGigeCamera camera;
