@@ -124,6 +124,10 @@ Views find_views(const po::variables_map& options, const Board& board) {
   return found;
 }
 
+/// What the lens must be known to; one sigma above it is warned of.
+constexpr double kFocalLimit = 0.0005;  // of the focal length
+constexpr double kCentreLimit_px = 0.1;
+
 void print(const Views& found, const LensCalibration& lens, const Coverage& seen) {
   const CameraIntrinsics& k = lens.intrinsics;
   std::printf("board      in %zu of %d images, %zu marks; %d left out as outliers\n", found.views.size(), found.images,
@@ -140,6 +144,13 @@ void print(const Views& found, const LensCalibration& lens, const Coverage& seen
   std::printf("coverage   %.0f %% of the image\n", 100 * seen.covered);
   for (const std::string& corner : seen.empty_corners)
     std::printf("warning    no view in the %s corner of the image: the lens is a guess there\n", corner.c_str());
+  if (lens.focal_sigma_px > kFocalLimit * std::min(k.fx_px, k.fy_px))
+    std::printf(
+        "warning    focal: one sigma is %.3f px, above the limit of %.2f %%: add views, tilted ones above all\n",
+        lens.focal_sigma_px, 100 * kFocalLimit);
+  if (lens.centre_sigma_px > kCentreLimit_px)
+    std::printf("warning    centre: one sigma is %.3f px, above the limit of %.1f px: add views\n",
+                lens.centre_sigma_px, kCentreLimit_px);
 }
 
 int calibrate(const po::variables_map& options) {

@@ -95,6 +95,11 @@ if [ -x "$bin/calibrate" ]; then
   "$bin/calibrate" --images shots $chessboard --out camera.yaml --plot coverage.png | tee lens.txt
   [ -s coverage.png ] || fail "no coverage plot"
   grep -q "no view in the upper left corner" lens.txt || fail "calibrate does not warn of a corner without a view"
+  if grep -q "above the limit" lens.txt; then fail "calibrate warns of a lens that is known well enough"; fi
+  mkdir few
+  cp shots/shot_10[0-3].png few
+  "$bin/calibrate" --images few $chessboard --out few.yaml | tee few.txt
+  grep -q "^warning    focal: one sigma is .* above the limit of 0.05 %" few.txt || fail "calibrate does not warn of a weak lens"
   /usr/bin/python3 - <<'PYTHON'
 import yaml
 info = yaml.safe_load(open("camera.yaml"))
