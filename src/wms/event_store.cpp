@@ -71,13 +71,23 @@ struct EventStore::Sql {
   explicit Sql(const StoreParams& params)
       : database(open_database(params.path)), ballast(params.path + ".ballast", params.ballast_bytes) {}
 
-  void limit(std::int64_t pages) { database.exec("PRAGMA max_page_count = " + std::to_string(pages)); }
+  /// Does not throw: it is also set on the way out of a job that threw.
+  void limit(std::int64_t pages) {
+    const std::string text = "PRAGMA max_page_count = " + std::to_string(pages);
+    sqlite3_exec(database.getHandle(), text.c_str(), nullptr, nullptr, nullptr);
+  }
 
   /// The limit of pages, or the disk; the shared memory of the log tells it as an input/output error.
   bool out_of_room(const SQLite::Exception& error) {
     return error.getErrorCode() == SQLITE_FULL ||
            (error.getErrorCode() == SQLITE_IOERR && sqlite3_system_errno(database.getHandle()) == ENOSPC);
   }
+
+  struct LimitAtEnd {
+    ~LimitAtEnd() { sql.limit(pages); }
+    Sql& sql;
+    std::int64_t pages;
+  };
 
   struct RollBackAtEnd {
     ~RollBackAtEnd() {
@@ -155,7 +165,9 @@ struct EventStore::Sql {
       "(SELECT told.pallet FROM event AS told JOIN event AS correction ON told.heard = correction.corrects"
       " WHERE correction.sequence = ?1 AND told.sequence < ?1 ORDER BY told.sequence DESC LIMIT 1))"
       " ORDER BY sequence"};
-  Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
+  /// But the newest: by it an event that is told again is known.
+  Statement forget_events{database,
+                          "DELETE FROM event WHERE sequence <= ? AND sequence < (SELECT MAX(sequence) FROM event)"};
   Statement put_clock{database, "REPLACE INTO clock VALUES(?, ?, ?)"};
   Statement forget_clocks{database, "DELETE FROM clock WHERE boot <> ?"};
 };
@@ -210,14 +222,12 @@ bool EventStore::run(Job job) {
 /// The same with all the room that is kept back. The ballast comes back when there is room for it again.
 template <class Job>
 bool EventStore::run_with_reserve(Job job) {
+  const Sql::LimitAtEnd without_reserve{*sql_, params_.max_pages};
   sql_->limit(params_.max_pages + params_.reserve_pages);
-  bool done = run(job);
-  if (!done && sql_->ballast.held()) {
-    sql_->ballast.release();
-    done = run(job);
-  }
-  sql_->limit(params_.max_pages);
-  return done;
+  if (run(job)) return true;
+  if (!sql_->ballast.held()) return false;
+  sql_->ballast.release();
+  return run(job);
 }
 
 Recorded EventStore::record(const PalletChange& change, const std::string& draft, const WallClock& clock) {

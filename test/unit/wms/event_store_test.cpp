@@ -177,6 +177,35 @@ TEST_F(Store, AFullFileKeepsAllAndIsWorkedOff) {
   EXPECT_EQ(store.last(), held + 1);
 }
 
+TEST_F(Store, AFullFileKnowsWhatItHeardLast) {
+  StoreParams small = params();
+  small.max_pages = 60;
+  small.reserve_pages = 16;
+  {
+    EventStore store(small, kStream);
+    for (int n = 1; n <= 9; ++n) store.record(change(n), "d");
+    ASSERT_TRUE(store.acknowledge(9));
+    EXPECT_EQ(store.record(change(10), std::string(1000000, 'd')), Recorded::kFull);
+  }
+  EventStore store(small, kStream);
+  EXPECT_TRUE(store.last_heard().is(change(9)));
+  EXPECT_EQ(store.record(change(9), "d"), Recorded::kKnown);
+  EXPECT_EQ(store.documents(1, 8, freeze).front().sequence, 9u) << "history went";
+}
+
+TEST_F(Store, TheReserveIsKeptBackAgainWhateverFails) {
+  StoreParams small = params();
+  small.max_pages = 60;
+  small.reserve_pages = 16;
+  EventStore store(small, kStream);
+  std::uint64_t n = 1;
+  store.record(change(n++), "d");
+  const auto fail = [](const StoredDraft&) -> std::string { throw std::runtime_error("no document"); };
+  EXPECT_THROW(store.documents(1, 1, fail), std::runtime_error);
+  while (store.record(change(n), std::string(2000, 'd')) == Recorded::kNew) ++n;
+  EXPECT_LE(SQLite::Database(small.path).execAndGet("PRAGMA page_count").getInt(), small.max_pages);
+}
+
 TEST_F(Store, AFullDiskIsWorkedOffFromTheBallast) {
   const std::string disk = folder_ / "disk";
   std::filesystem::create_directory(disk);
