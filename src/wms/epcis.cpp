@@ -167,7 +167,7 @@ json renamed(json event, const json& correction) {
 json moved(json event, const json& correction) {
   copy({"readPoint", "bizLocation", "bizStep", "lodestar:zone"}, correction, event);
   if (!event.contains("sensorElementList")) return event;
-  copy({"lodestar:level"}, correction, event);
+  copy({"lodestar:level", "lodestar:coasting"}, correction, event);
   event["sensorElementList"][0]["sensorReport"] = correction["sensorElementList"][0]["sensorReport"];
   return event;
 }
