@@ -37,13 +37,14 @@ const char* name(VdaConnection state) {
 json position(const VdaParams& params, const TruckState& truck) {
   const auto& T_map_base = truck.pose->T_map_base;
   const double score = 1.0 - std::min(1.0, truck.protection_level_m / params.alert_limit_m);
-  return {{"x", T_map_base.translation().x()},
-          {"y", T_map_base.translation().y()},
-          {"theta", roll_pitch_yaw(T_map_base.linear()).yaw_rad},
-          {"mapId", params.map_id},
-          {"positionInitialized", truck.localized},
-          {"localizationScore", truck.localized ? score : 0.0},
-          {"deviationRange", truck.protection_level_m}};
+  json out = {{"x", T_map_base.translation().x()},
+              {"y", T_map_base.translation().y()},
+              {"theta", roll_pitch_yaw(T_map_base.linear()).yaw_rad},
+              {"mapId", params.map_id},
+              {"positionInitialized", truck.localized},
+              {"localizationScore", truck.localized ? score : 0.0}};
+  if (truck.localized) out["deviationRange"] = truck.protection_level_m;
+  return out;
 }
 
 json load(const Pallet& pallet) {

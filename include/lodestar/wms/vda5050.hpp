@@ -36,7 +36,7 @@ struct VdaParams {
 struct TruckState {
   std::optional<PoseEstimate> pose;
   bool localized = false;         ///< the pose is trusted
-  double protection_level_m = 0;  ///< of the pose
+  double protection_level_m = 0;  ///< of the pose; told while it is trusted
   bool driving = false;
   std::vector<Pallet> loads;  ///< on the fork
   bool outbox_full = false;

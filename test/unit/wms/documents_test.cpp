@@ -167,6 +167,16 @@ TEST(Documents, AnotherPoseInTheSameZoneLeavesTheSetDownToo) {
   EXPECT_EQ(element["sensorMetadata"], events_of(dropped())[1]["sensorElementList"][0]["sensorMetadata"]);
 }
 
+TEST(Documents, APoseThatSomebodyMeasuredIsNotCoasting) {
+  PalletChange coasted = change(2), moved = correction(PalletState::kStanding);
+  coasted.pallet.coasting = true;
+  moved.pallet.T_map_pallet.translation().x() += 1.25;
+  const Told told = told_in(document(moved, {picked(), document(coasted)}));
+  ASSERT_EQ(told.replaced.size(), 2u);
+  EXPECT_EQ(told.replaced[1].first["lodestar:coasting"], true);
+  EXPECT_EQ(told.replaced[1].second["lodestar:coasting"], false);
+}
+
 TEST(Documents, ALabelThatIsReadOnTheForkReplacesThePick) {
   PalletChange read = change(1);
   read.kind = PalletChangeKind::kCorrection;
@@ -300,6 +310,9 @@ TEST(Documents, Vda5050Examples) {
   expect_example("vda5050_state", messages.state(truck, test::at(1)).payload);
   expect_example("vda5050_visualization", messages.visualization(truck, test::at(2)).payload);
   expect_example("vda5050_factsheet", messages.factsheet(test::at(3)).payload);
+  truck.localized = false;
+  const json lost = json::parse(Vda5050(params).state(truck, test::at(4)).payload)["agvPosition"];
+  EXPECT_FALSE(lost.contains("deviationRange")) << "nobody knows how far it may be off";
   truck = TruckState();
   truck.outbox_full = true;
   expect_example("vda5050_state_in_trouble", messages.state(truck, test::at(4)).payload);
