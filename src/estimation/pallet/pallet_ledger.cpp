@@ -118,7 +118,6 @@ void PalletLedger::merge(const std::string& id, const std::string& into, PalletS
   strike(into, stamp, reason);
 }
 
-/// Candidates that nothing else asks for stand where they stood.
 void PalletLedger::release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason) {
   for (const std::string& id : candidates) {
     const PalletChange* candidate = map_.find(id);

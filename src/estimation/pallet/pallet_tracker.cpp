@@ -291,7 +291,8 @@ void PalletTracker::read_late(const LoadSample& sample) {
     if (candidate != nullptr && candidate->pallet.sscc.empty()) left.push_back(id);
   }
   if (left.empty()) return ledger_.settle(pallet, PalletState::kOnFork, sample.stamp, reason);
-  ledger_.amend(pallet, sample.stamp, last.candidates, reason);
+  ledger_.amend(pallet, sample.stamp, left, reason);
+  ledger_.release(last.candidates, sample.stamp, reason);
 }
 
 }  // namespace lodestar

@@ -41,6 +41,8 @@ class PalletLedger {
   void settle(Pallet pallet, PalletState state, Stamp stamp, const std::string& reason);
   /// What was told as `id` is pallet `into`, in this state; `id` ends.
   void merge(const std::string& id, const std::string& into, PalletState state, Stamp stamp, const std::string& reason);
+  /// Those that are no pallet's candidates any more stand where they stood.
+  void release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason);
   /// This pallet was found: it is no other's candidate any more.
   void strike(const std::string& id, Stamp stamp, const std::string& reason);
 
@@ -50,7 +52,6 @@ class PalletLedger {
  private:
   void write(PalletChange change);
   void enter(PalletChange change);
-  void release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason);
 
   PalletMap map_;
   std::deque<PalletChange> newest_;  ///< numbered without gaps

@@ -127,6 +127,22 @@ TEST(PalletTracker, a_label_read_late_settles_what_was_asked) {
   EXPECT_EQ(truck.lower().at(0).pallet.id, "id1");
 }
 
+TEST(PalletTracker, a_label_that_nobody_has_leaves_those_without_one) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9);
+  truck.set_sigma(0.4);
+  truck.stand(0, 0.5);
+  ASSERT_EQ(truck.lift().at(0).candidates.size(), 2u);
+  const auto changes = truck.load(true, PalletTruck::sscc(4));
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_EQ(changes[0].pallet.id, "id3");
+  EXPECT_EQ(changes[0].pallet.sscc, PalletTruck::sscc(4));
+  EXPECT_EQ(changes[0].candidates, std::vector<std::string>{"id2"});
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding) << "it bears another";
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kUncertain);
+}
+
 TEST(PalletTracker, a_label_outweighs_the_map) {
   PalletTruck truck;
   truck.bring(0, 0, PalletTruck::sscc(1));
