@@ -40,7 +40,7 @@ class BareInserts {
   }
 
   void insert(const PalletChange& change, const std::string& draft) {
-    SQLite::Transaction transaction(database_);
+    run(begin_);
     event_.bind(1, static_cast<std::int64_t>(change.sequence));
     event_.bind(2, static_cast<std::int64_t>(change.sequence));
     event_.bind(3, static_cast<std::int64_t>(change.stamp.time_since_epoch().count()));
@@ -58,11 +58,11 @@ class BareInserts {
     run(pallet_);
     if (change.kind == PalletChangeKind::kDrop) {
       const auto p = change.pallet.T_map_pallet.translation();
-      place_.bind(1, static_cast<std::int64_t>(change.sequence));
-      for (int i = 0; i < 6; ++i) place_.bind(i + 2, p[i / 2]);
+      place_.bind(1, change.pallet.id);
+      for (int axis = 0; axis < 3; ++axis) place_.bind(axis + 2, p[axis]);
       run(place_);
     }
-    transaction.commit();
+    run(commit_);
   }
 
  private:
@@ -72,13 +72,16 @@ class BareInserts {
   }
 
   SQLite::Database database_;
+  SQLite::Statement begin_{database_, "BEGIN"}, commit_{database_, "COMMIT"};
   SQLite::Statement event_{database_,
                            "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot)"
                            " VALUES(?, ?, ?, ?, ?, ?, ?)"};
   SQLite::Statement pallet_{database_,
-                            "INSERT OR REPLACE INTO pallet(id, sscc, state, zone, level, sequence)"
-                            " VALUES(?, ?, ?, ?, ?, ?)"};
-  SQLite::Statement place_{database_, "INSERT INTO place VALUES(?, ?, ?, ?, ?, ?, ?)"};
+                            "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
+                            " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
+                            " zone = excluded.zone, level = excluded.level, sequence = excluded.sequence"};
+  SQLite::Statement place_{database_,
+                           "REPLACE INTO place SELECT key, ?2, ?2, ?3, ?3, ?4, ?4 FROM pallet WHERE id = ?1"};
 };
 
 double elapsed_s(std::chrono::steady_clock::time_point since) {
