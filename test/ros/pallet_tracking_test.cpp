@@ -186,12 +186,19 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   find.since = now_ + ros::Duration(1);
   EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty());
   find.since = ros::Time();
+  find.until = ros::Time(1000);
+  EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty()) << "it was not there yet";
+  find.until = now_ + ros::Duration(1);
+  find.id = sscc(2);
+  EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty()) << "another";
   find.id = sscc(1).substr(0, 5);
   find.area.points.resize(2);
   EXPECT_FALSE(call<FindPallets>("/pallets/find", find).success);
   find.area.points.resize(3);
-  find.area.points[1].x = 3;
-  find.area.points[2].y = 3;
+  find.area.points[1].x = 1.4;  // beside it
+  find.area.points[2].y = 0.1;
+  EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty());
+  find.area.points[1].x = find.area.points[2].y = 3;
   EXPECT_EQ(call<FindPallets>("/pallets/find", find).pallets.size(), 1u);
 
   // Killed with a pallet on the fork, and started again.
@@ -252,6 +259,16 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   EXPECT_EQ(call<FindPallets>("/pallets/find", find).pallets.size(), 1u);
   find.zone = "A/1/1";
   EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty());
+
+  // A person says that it left.
+  correct.place.clear();
+  correct.gone = true;
+  EXPECT_TRUE(call<CorrectPallet>("/pallets/correct", correct).success);
+  EXPECT_EQ(event(9).pallet.state, PalletEntry::GONE);
+  find = FindPallets::Request();
+  EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty());
+  find.gone = true;
+  EXPECT_EQ(call<FindPallets>("/pallets/find", find).pallets.size(), 1u);
 }
 
 TEST_F(PalletTracking, CountsBadInputAndGoesOn) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,10 @@ struct Site {
   /// @param brokers where it listens, at one of them at a time
   explicit Site(std::vector<std::string> brokers)
       : link(mqtt("site", brokers)),
-        client(link, brokers.size(), kQuick, "+", "+",
-               [this](const std::string&, const std::string& document) { documents.push_back(document); }) {}
+        client(link, brokers.size(), kQuick, "+", "+", [this](const std::string&, const std::string& document) {
+          documents.push_back(document);
+          if (kept) kept();
+        }) {}
 
   void poll() { client.poll(clocks().monotonic); }
   void expect_all_once(std::uint64_t count) const {
@@ -29,6 +32,7 @@ struct Site {
   }
 
   std::vector<std::string> documents;
+  std::function<void()> kept;  ///< called with each document, before it is acknowledged
   MqttLink link;
   SiteClient client;
 };
