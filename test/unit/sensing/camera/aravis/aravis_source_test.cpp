@@ -116,15 +116,15 @@ TEST_F(AravisSourceTest, AutomaticsAreStopped) {
 
 TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const FakeGigeCamera camera;
-  settings_.rate_hz = 200;
+  settings_.rate_hz = 50;  // which it keeps on a busy machine, too
   Capture capture = this->capture();
-  ASSERT_TRUE(gets(capture, 40));
+  ASSERT_TRUE(gets(capture, 25));
   EXPECT_EQ(capture.report().clock_restarts, 0u);
   // It stamps by the host's own clock, then paints the frame and sends it: stamps are that least delay behind its own
   // time, and come more evenly than the arrivals.
   std::vector<double> stamp_delays_s, arrival_delays_s;
   std::vector<DeviceFrame> frames;
-  while (frames.size() < 40) {
+  while (frames.size() < 25) {
     const auto captured = capture.next();
     if (!captured) continue;
     frames.push_back(captured->frame);
@@ -136,10 +136,9 @@ TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   const double before_arrival_s = 0.5 * *settings_.exposure_s;
   for (std::size_t i = 0; i < frames.size(); ++i)
     EXPECT_LE(stamp_delays_s[i], arrival_delays_s[i] - before_arrival_s + 1e-6);
-  // Asked for 200 Hz; what a busy machine makes of that stands in the frames.
   const double passed_s = seconds(Duration(frames.back().ticks - frames.front().ticks));
   const double rate_hz = static_cast<double>(frames.back().id - frames.front().id) / passed_s;
-  EXPECT_LT(rate_hz, 220);
+  EXPECT_NEAR(rate_hz, 50, 5);
   EXPECT_NEAR(capture.report().rate_hz, rate_hz, 0.15 * rate_hz);
 }
 
