@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -302,6 +303,13 @@ TEST_F(WmsBridge, TellsTheTrucksState) {
   EXPECT_EQ(state["agvPosition"]["mapId"], "test-hall");
   EXPECT_EQ(state["agvPosition"]["x"], 3.0);
   EXPECT_EQ(state["agvPosition"]["localizationScore"], 0.5);
+  const auto drops = [&](double level_m, MessageDrop reason) {
+    integrity.protection_level_m = level_m;
+    integrity_.publish(integrity);
+    return counted(std::string("dropped: ") + name(reason), 1);
+  };
+  EXPECT_TRUE(drops(std::numeric_limits<double>::quiet_NaN(), MessageDrop::kNotFinite));
+  EXPECT_TRUE(drops(-0.1, MessageDrop::kRange));
   ASSERT_EQ(state["loads"].size(), 1u);
   EXPECT_EQ(state["loads"][0]["loadId"], "106141412345678908");
 

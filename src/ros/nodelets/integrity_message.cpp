@@ -36,4 +36,10 @@ PoseIntegrity integrity_message(const PoseFilter& filter, const std::string& map
   return message;
 }
 
+std::optional<MessageDrop> fault_of(const PoseIntegrity& message) {
+  if (!std::isfinite(message.protection_level_m)) return MessageDrop::kNotFinite;
+  if (message.protection_level_m < 0) return MessageDrop::kRange;
+  return std::nullopt;
+}
+
 }  // namespace lodestar

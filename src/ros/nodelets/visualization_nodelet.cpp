@@ -9,6 +9,7 @@
 #include "lodestar/ros/convert/pose.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/nodelets/image_overlay.hpp"
+#include "lodestar/ros/nodelets/integrity_message.hpp"
 #include "lodestar/ros/nodelets/markers.hpp"
 
 namespace lodestar {
@@ -94,7 +95,7 @@ void VisualizationNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStam
 }
 
 void VisualizationNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
-  if (!std::isfinite(message->protection_level_m)) return edge_->health().drop(MessageDrop::kNotFinite);
+  if (const auto fault = fault_of(*message)) return edge_->health().drop(*fault);
   integrity_ = message;
   refused_.clear();
   for (const BeaconFit& fit : message->beacons)

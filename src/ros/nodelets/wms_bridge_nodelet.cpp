@@ -12,6 +12,7 @@
 #include "lodestar/ros/convert/battery.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/nodelets/integrity_message.hpp"
 #include "lodestar/ros/nodelets/wms_params.hpp"
 #include "lodestar/ros/params/line_setup.hpp"
 
@@ -135,6 +136,7 @@ void WmsBridgeNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStampedC
 }
 
 void WmsBridgeNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
+  if (const auto fault = fault_of(*message)) return health_->drop(*fault);
   const bool trusted = message->mode == PoseIntegrity::TRACKING || message->mode == PoseIntegrity::COASTING;
   bridge_->telemetry().take_integrity(trusted, message->protection_level_m);
 }
