@@ -127,6 +127,7 @@ TEST_F(CameraCapture, PicturesOnDiskWithTheirCalibration) {
   ASSERT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "images count") > 0; }));
   EXPECT_EQ(diagnostics_.level(kNode), 0) << diagnostics_.message(kNode);
   EXPECT_NEAR(std::stod(diagnostics_.value(kNode, "frame rate_hz")), 100, 5);
+  EXPECT_EQ(diagnostics_.value(kNode, "pixels"), "copied into the message");
 }
 
 TEST_F(CameraCapture, ACalibrationOfAnotherModeIsNotUsed) {
@@ -197,6 +198,7 @@ TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
   ASSERT_TRUE(more_images(20));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "reconnects") >= 1; }));
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
+  EXPECT_EQ(diagnostics_.value(kNode, "pixels"), "written into the message by the driver");
 }
 
 TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {

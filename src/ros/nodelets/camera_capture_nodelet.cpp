@@ -124,6 +124,7 @@ void CameraCaptureNodelet::report(Health::Status& status) {
   const CaptureReport now = shared_report();
   status.add("camera", now.camera);
   status.add("stamps", now.stamping);
+  status.add("pixels", now.in_place ? "written into the message by the driver" : "copied into the message");
   status.addf("frame rate_hz", "%.3f", now.rate_hz);
   status.addf("frame jitter_ms", "%.3f", now.jitter_s * 1e3);
   status.addf("clock drift_ppm", "%.1f", now.drift * 1e6);

@@ -105,6 +105,7 @@ CaptureReport Capture::report() const {
   report.state = state_;
   report.fault = fault_;
   report.camera = info_.name;
+  report.in_place = info_.in_place;
   report.frames = frames_before_ + counter_.frames();
   report.dropped = dropped_before_ + counter_.dropped();
   report.reconnects = reconnects_;

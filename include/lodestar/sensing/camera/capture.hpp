@@ -28,9 +28,10 @@ enum class CaptureState {
 /// How a capture goes; counts are those since its beginning.
 struct CaptureReport {
   CaptureState state = CaptureState::kClosed;
-  std::string fault;     ///< why no frame comes; empty while frames come
-  std::string camera;    ///< that is or was open
-  std::string stamping;  ///< how its frames are stamped
+  std::string fault;      ///< why no frame comes; empty while frames come
+  std::string camera;     ///< that is or was open
+  std::string stamping;   ///< how its frames are stamped
+  bool in_place = false;  ///< as SourceInfo says
   std::uint64_t frames = 0, dropped = 0, reconnects = 0, clock_restarts = 0;
   double rate_hz = 0, jitter_s = 0, drift = 0;  ///< of the last second or so
   DropCounts<NoFrame> missed;

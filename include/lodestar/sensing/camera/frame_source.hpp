@@ -72,6 +72,7 @@ struct SourceInfo {
   double period_s = 0;                         ///< from frame to frame, as the source says; 0: unknown
   std::optional<CameraIntrinsics> intrinsics;  ///< where the source itself knows its lens
   bool triggered = false;                      ///< frames come when someone else wants them: silence is no fault
+  bool in_place = false;  ///< the driver writes into the allocator's memory; else every frame is copied there
 };
 
 /// Why there was no frame.
