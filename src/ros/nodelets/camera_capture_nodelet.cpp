@@ -80,6 +80,7 @@ void CameraCaptureNodelet::open_or_refuse() {
   } catch (const CameraError& error) {
     ROS_WARN_STREAM(error.what() << "; trying again until it is there");
   }
+  report_ = capture_->report();
 }
 
 void CameraCaptureNodelet::run() {
@@ -134,7 +135,7 @@ void CameraCaptureNodelet::report(Health::Status& status) {
   status.add("last fault", now.fault);
   report_drops(now.missed, status);
   if (now.state == CaptureState::kOver) status.mergeSummary(DiagnosticStatus::WARN, now.fault);
-  if (now.state == CaptureState::kClosed || now.state == CaptureState::kSilent)
+  if (now.state != CaptureState::kOver && now.state != CaptureState::kRunning)
     status.mergeSummary(DiagnosticStatus::ERROR, "camera lost: " + now.fault);
   const std::string uncalibrated = calibration_ ? calibration_->fault() : "";
   status.add("calibration", uncalibrated.empty() ? "in force" : uncalibrated);

@@ -181,7 +181,7 @@ void V4l2Source::queue_buffers(v4l2_memory memory, SourceClock& clock) {
     if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
       refuse("its driver does not stamp frames by the steady clock");
     const bool at_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-    clock.stamped = at_start ? SourceClock::Stamped::kExposureStart : SourceClock::Stamped::kExposureEnd;
+    clock.stamped = at_start ? SourceClock::Stamped::kExposureStart : SourceClock::Stamped::kReceived;
     clock.heard_at_arrival = false;
     buffers_.push_back(memory_ == V4L2_MEMORY_USERPTR ? our_buffer() : mapped_buffer(buffer));
     queue(index);

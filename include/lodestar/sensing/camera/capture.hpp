@@ -22,6 +22,7 @@ enum class CaptureState {
   kClosed,   ///< the camera is not there, or refused the settings; tried again
   kRunning,  ///< frames come, or their time has not passed yet
   kSilent,   ///< no frame came when it was due; opened anew until one comes
+  kSpoilt,   ///< frames come, but none for kSilence that can be used
   kOver,     ///< a recording came to its end
 };
 
@@ -62,6 +63,7 @@ class Capture {
   bool reopen();
   std::optional<CapturedFrame> take(Result<DeviceFrame, NoFrame> result);
   void hear();
+  void spoil(NoFrame reason);
   void wait_longer();
   void forget_stream();
   void lose(CaptureState state, const std::string& why);
@@ -76,7 +78,7 @@ class Capture {
   FrameCounter counter_{64};
   CaptureState state_ = CaptureState::kClosed;
   std::string fault_;
-  Duration silent_for_{};
+  Duration silent_for_{}, spoilt_for_{};
   Duration may_be_late_ = kSilence;  ///< doubled with each opening that brought too few frames to learn the period
   double period_s_ = 0;              ///< from frame to frame, as learnt or told; 0: unknown
   bool lost_ = true, was_open_ = false;

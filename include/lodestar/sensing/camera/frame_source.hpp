@@ -54,7 +54,11 @@ struct DeviceFrame {
 
 /// What a source's counters mean.
 struct SourceClock {
-  enum class Stamped { kExposureStart, kExposureMiddle, kExposureEnd };
+  enum class Stamped {
+    kExposureStart,
+    kExposureMiddle,
+    kReceived  ///< the last pixel is read out and here: behind the end of the exposure
+  };
   Stamped stamped = Stamped::kExposureStart;
   /// `heard` is a frame's arrival, which is the end of its exposure at the earliest. Else both clocks were read at
   /// once.

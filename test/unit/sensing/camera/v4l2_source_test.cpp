@@ -99,6 +99,12 @@ TEST_F(V4l2SourceTest, MjpegIsDecodedAndBrokenOnesAreIncomplete) {
   const auto frame = source_->next({});
   ASSERT_TRUE(frame.ok());
   EXPECT_LE(difference(*frame), 3);
+  constexpr std::uint8_t kStartOfFrame[] = {0xFF, 0xC0, 0x00, 0x0B, 0x08};
+  const auto size =
+      std::search(camera_->picture.begin(), camera_->picture.end(), std::begin(kStartOfFrame), std::end(kStartOfFrame));
+  ASSERT_LT(size + 9, camera_->picture.end());
+  std::fill(size + 5, size + 9, std::uint8_t{0xFF});  // 65535 x 65535
+  EXPECT_EQ(source_->next({}).error(), NoFrame::kIncomplete);
   camera_->picture = {1, 2, 3};
   EXPECT_EQ(source_->next({}).error(), NoFrame::kIncomplete);
 }
