@@ -211,12 +211,15 @@ TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {
 TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
   ros::param::set("/camera_capture/trigger", "Software");
   set("stale_warn_s", 0.1);
+  const Inbox<diagnostic_msgs::DiagnosticArray> told_from_the_first(nh_, "/diagnostics");
   ASSERT_TRUE(load(FakeGigeCamera::kUri));
   ASSERT_TRUE(wait_for([&] {
     const std::string age_s = diagnostics_.value(kNode, "images age_s");
     return !age_s.empty() && std::stod(age_s) > 0.5;
   }));
   EXPECT_EQ(diagnostics_.message(kNode).find("images"), std::string::npos) << diagnostics_.message(kNode);
+  for (const auto& array : told_from_the_first.all())
+    for (const auto& status : array->status) EXPECT_LT(status.level, 2) << status.name << ": " << status.message;
 }
 
 TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {
