@@ -199,6 +199,8 @@ TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "reconnects") >= 1; }));
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
   EXPECT_EQ(diagnostics_.value(kNode, "pixels"), "written into the message by the driver");
+  EXPECT_TRUE(wait_for([&] { return std::stod(diagnostics_.value(kNode, "frame jitter_ms")) > 0; }));
+  EXPECT_GE(diagnostics_.count(kNode, "frames dropped by id"), 0);
 }
 
 TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {

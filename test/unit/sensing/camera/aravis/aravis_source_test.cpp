@@ -112,6 +112,14 @@ TEST_F(AravisSourceTest, AutomaticsAreStopped) {
   open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
   EXPECT_EQ(arv_camera_get_gain_auto(by_aravis().get(), nullptr), ARV_AUTO_OFF);
 }
+
+TEST_F(AravisSourceTest, SettingsReachTheCamera) {
+  const FakeGigeCamera camera;
+  settings_.gain = 3;
+  open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
+  EXPECT_NEAR(arv_camera_get_gain(by_aravis().get(), nullptr), 3, 1e-9);
+  EXPECT_NEAR(arv_camera_get_exposure_time(by_aravis().get(), nullptr), 2000, 1e-6);
+}
 #endif
 
 TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
@@ -134,8 +142,10 @@ TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
   }
   EXPECT_LT(spread(stamp_delays_s), spread(arrival_delays_s) + 0.0001);
   const double before_arrival_s = 0.5 * *settings_.exposure_s;
-  for (std::size_t i = 0; i < frames.size(); ++i)
+  for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_LE(stamp_delays_s[i], arrival_delays_s[i] - before_arrival_s + 1e-6);
+    EXPECT_GE(stamp_delays_s[i], -before_arrival_s - 1e-3);
+  }
   const double passed_s = seconds(Duration(frames.back().ticks - frames.front().ticks));
   const double rate_hz = static_cast<double>(frames.back().id - frames.front().id) / passed_s;
   EXPECT_NEAR(rate_hz, 50, 5);
