@@ -8,16 +8,6 @@ namespace {
 constexpr double kMinPlaneHeight_m = 0.5;
 constexpr double kMaxEstimateAge_s = 1.0;
 
-/// Height of the ceiling's plane above the camera; for a level truck where no pose is known. None without beacons.
-std::optional<double> plane_height(const std::vector<Beacon>& beacons, const RigidTransform& T_map_camera) {
-  if (beacons.empty()) return std::nullopt;
-  std::vector<double> heights_m;
-  for (const Beacon& beacon : beacons) heights_m.push_back(beacon.position_map.z());
-  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
-  std::nth_element(heights_m.begin(), middle, heights_m.end());
-  return std::max(kMinPlaneHeight_m, *middle - T_map_camera.translation().z());
-}
-
 }  // namespace
 
 DetectionStage::DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer)
@@ -45,13 +35,22 @@ std::optional<PoseEstimate> DetectionStage::predicted(Stamp stamp) const {
   return moved_on(*estimate_, stamp);
 }
 
-Result<Sightings, FrameDrop> DetectionStage::process(const Image& image) {
+std::optional<double> DetectionStage::plane_height(const RigidTransform& T_map_camera) {
+  if (beacons_.empty()) return std::nullopt;
+  heights_m_.clear();
+  for (const Beacon& beacon : beacons_) heights_m_.push_back(beacon.position_map.z());
+  const auto middle = heights_m_.begin() + static_cast<std::ptrdiff_t>(heights_m_.size() / 2);
+  std::nth_element(heights_m_.begin(), middle, heights_m_.end());
+  return std::max(kMinPlaneHeight_m, *middle - T_map_camera.translation().z());
+}
+
+Result<Sightings, FrameDrop> DetectionStage::process(const Image& image, Sightings reuse) {
   const auto pose = predicted(image.stamp);
   const RigidTransform T_map_base = pose ? pose->T_map_base : RigidTransform::Identity();
-  if (const auto height_m = plane_height(beacons_, T_map_base * camera_.T_base_camera)) {
+  if (const auto height_m = plane_height(T_map_base * camera_.T_base_camera)) {
     detector_.set_plane_height(*height_m);
   }
-  auto result = detector_.process(image, motion_);
+  auto result = detector_.process(image, motion_, std::move(reuse));
   if (!result) return result;
   Sightings sightings = std::move(result).value();
   contradicted_ += static_cast<std::uint64_t>(

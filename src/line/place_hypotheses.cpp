@@ -98,7 +98,7 @@ PlaceHypotheses::Place PlaceHypotheses::place_at(const Fix& fix) const {
 }
 
 /// Names the blobs as this place would have them and corrects its filter with them.
-double PlaceHypotheses::cost(PoseFilter& filter, const Sightings& sightings) const {
+double PlaceHypotheses::cost(PoseFilter& filter, const Sightings& sightings) {
   Sightings named = sightings;
   namer_.name(named, beacons_, {}, {}, *camera_.model, camera_.T_base_camera, filter.estimate_at(sightings.stamp));
   const InnovationMeans::Mean before = filter.innovations().bearings;

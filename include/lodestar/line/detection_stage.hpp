@@ -37,7 +37,9 @@ class DetectionStage {
   void set_estimate(const std::optional<StateEstimate>& estimate);
 
   /// The sightings of the window that ends with this image, or why the image was dropped.
-  Result<Sightings, FrameDrop> process(const Image& image);
+  /// @param reuse an earlier result, whose memory the new one takes over: a caller that hands it back causes no
+  /// allocation in steady state
+  Result<Sightings, FrameDrop> process(const Image& image, Sightings reuse = {});
 
   /// Forgets the window and all motion (time went backwards, bag restarted).
   void reset();
@@ -50,6 +52,8 @@ class DetectionStage {
  private:
   /// The estimate moved on to `stamp` by constant velocity; none when it is too old for that.
   std::optional<PoseEstimate> predicted(Stamp stamp) const;
+  /// Height of the ceiling's plane above the camera; for a level truck where no pose is known. None without beacons.
+  std::optional<double> plane_height(const RigidTransform& T_map_camera);
 
   BeaconDetector detector_;
   BeaconNamer namer_;
@@ -58,6 +62,7 @@ class DetectionStage {
   std::vector<Beacon> beacons_;
   std::vector<BeaconId> heard_;
   std::vector<Arrival> arrivals_;
+  std::vector<double> heights_m_;  ///< scratch, of the beacons
   std::optional<StateEstimate> estimate_;
   std::uint64_t contradicted_ = 0;
 };

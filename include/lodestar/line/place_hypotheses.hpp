@@ -58,7 +58,7 @@ class PlaceHypotheses {
   static bool lost(const Place& place);
   void open_places(const Sightings& sightings);
   Place place_at(const Fix& fix) const;
-  double cost(PoseFilter& filter, const Sightings& sightings) const;
+  double cost(PoseFilter& filter, const Sightings& sightings);
   void give_up_losers();
 
   LineParams params_;

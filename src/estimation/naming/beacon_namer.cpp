@@ -2,14 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
 #include "lodestar/base/common/chi_square.hpp"
 
 namespace lodestar {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool usable(const PoseEstimate& estimate) {
   return estimate.T_map_base.matrix().allFinite() && estimate.covariance.allFinite() &&
@@ -40,79 +38,75 @@ std::optional<Expected> expect(const Beacon& beacon, const CameraModel& camera, 
   return Expected{seen->pixel, J * estimate.covariance * J.transpose()};
 }
 
-/// Squared distances, one row a sighting, one column a beacon; infinite where the codes differ, or where the beacon
-/// cannot be seen.
-Eigen::MatrixXd distances_chi2(const std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
-                               const CameraModel& camera, const RigidTransform& T_base_camera,
-                               const PoseEstimate& estimate, double model_sigma_px) {
-  Eigen::MatrixXd chi2 =
-      Eigen::MatrixXd::Constant(static_cast<int>(sightings.size()), static_cast<int>(beacons.size()), kNever);
+using Candidates = std::vector<BeaconNamer::Candidate>;
+
+/// The beacons of a sighting's code that can be seen, and how far off the pose expects them.
+void compare_places(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons, const CameraModel& camera,
+                    const RigidTransform& T_base_camera, const PoseEstimate& estimate, double model_sigma_px,
+                    Candidates& candidates) {
   const Eigen::Matrix2d model = model_sigma_px * model_sigma_px * Eigen::Matrix2d::Identity();
-  for (int b = 0; b < chi2.cols(); ++b) {
-    const std::optional<Expected> expected = expect(beacons[b], camera, T_base_camera, estimate);
+  for (const Beacon& beacon : beacons) {
+    const std::optional<Expected> expected = expect(beacon, camera, T_base_camera, estimate);
     if (!expected) continue;
-    for (int s = 0; s < chi2.rows(); ++s) {
-      if (!usable(sightings[s]) || sightings[s].tones != beacons[b].tones) continue;
-      const Eigen::Matrix2d S = expected->covariance + sightings[s].covariance + model;
-      const Eigen::Vector2d off = sightings[s].pixel - expected->pixel;
-      const double distance = off.dot(S.inverse() * off);
-      if (distance >= 0) chi2(s, b) = distance;
+    for (Sighting& sighting : sightings) {
+      if (!usable(sighting) || sighting.tones != beacon.tones) continue;
+      const Eigen::Matrix2d S = expected->covariance + sighting.covariance + model;
+      const Eigen::Vector2d off = sighting.pixel - expected->pixel;
+      const double chi2 = off.dot(S.inverse() * off);
+      if (chi2 >= 0) candidates.push_back({&sighting, &beacon, chi2});
     }
   }
-  return chi2;
 }
 
-/// Squared distances of the blobs' bearings from the directions that their beacons' announcements came from; infinite
-/// where the codes differ, or where nothing was heard.
-Eigen::MatrixXd distances_chi2(const std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
-                               const std::vector<Arrival>& arrivals, const CameraModel& camera,
-                               const RigidTransform& T_base_camera, double arrival_sigma_rad) {
-  Eigen::MatrixXd chi2 =
-      Eigen::MatrixXd::Constant(static_cast<int>(sightings.size()), static_cast<int>(beacons.size()), kNever);
-  for (int b = 0; b < chi2.cols(); ++b) {
+/// The beacons of a sighting's code that were heard, and how far from its bearing their announcements came from.
+void compare_arrivals(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
+                      const std::vector<Arrival>& arrivals, const CameraModel& camera,
+                      const RigidTransform& T_base_camera, double arrival_sigma_rad, Candidates& candidates) {
+  for (const Beacon& beacon : beacons) {
     const auto arrival = std::find_if(arrivals.begin(), arrivals.end(),
-                                      [&](const Arrival& candidate) { return candidate.beacon == beacons[b].id; });
+                                      [&](const Arrival& candidate) { return candidate.beacon == beacon.id; });
     if (arrival == arrivals.end()) continue;
     // Filled up along the direction, where the unit vector says nothing.
     const Eigen::Vector3d& u = arrival->direction_base;
     const Eigen::Matrix3d S =
         arrival->covariance + u * u.transpose() + arrival_sigma_rad * arrival_sigma_rad * Eigen::Matrix3d::Identity();
-    for (int s = 0; s < chi2.rows(); ++s) {
-      if (!usable(sightings[s]) || sightings[s].tones != beacons[b].tones) continue;
-      const auto bearing = camera.bearing(sightings[s].pixel);
+    for (Sighting& sighting : sightings) {
+      if (!usable(sighting) || sighting.tones != beacon.tones) continue;
+      const auto bearing = camera.bearing(sighting.pixel);
       if (!bearing) continue;
       const Eigen::Vector3d off = T_base_camera.linear() * bearing->direction - u;
-      chi2(s, b) = off.dot(S.inverse() * off);
+      candidates.push_back({&sighting, &beacon, off.dot(S.inverse() * off)});
     }
   }
-  return chi2;
 }
 
-void name_by_place(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons, const Eigen::MatrixXd& chi2,
-                   double gate_chi2, double margin_chi2) {
-  for (int s = 0; s < chi2.rows(); ++s) {
-    int best = 0;
-    const double distance = chi2.row(s).minCoeff(&best);
-    if (!(distance < gate_chi2)) continue;
-    const auto others_are_worse = [&](const auto& line) {  // the best itself is the one that may be this near
-      return (line.array() < distance + margin_chi2).count() == 1;
+void name_by_place(const Candidates& candidates, double gate_chi2, double margin_chi2) {
+  for (const auto& best : candidates) {
+    if (!(best.chi2 < gate_chi2)) continue;
+    const auto comes_near = [&](const auto& other) {  // the best itself is the one that may
+      return (other.sighting == best.sighting || other.beacon == best.beacon) && other.chi2 < best.chi2 + margin_chi2;
     };
-    if (others_are_worse(chi2.row(s)) && others_are_worse(chi2.col(best))) sightings[s].beacon = beacons[best].id;
+    if (std::count_if(candidates.begin(), candidates.end(), comes_near) == 1) best.sighting->beacon = best.beacon->id;
   }
+}
+
+template <class Fits>
+std::optional<BeaconId> only_one(const std::vector<Beacon>& beacons, Fits&& fits) {
+  const auto first = std::find_if(beacons.begin(), beacons.end(), fits);
+  if (first == beacons.end() || std::any_of(std::next(first), beacons.end(), fits)) return std::nullopt;
+  return first->id;
 }
 
 /// The one beacon that the code alone can mean: the only one that has it, or the only one of those that is heard.
 std::optional<BeaconId> meant_by(ToneSet code, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
                                  bool require_announcement) {
-  std::vector<BeaconId> with_code, with_code_heard;
-  for (const Beacon& beacon : beacons) {
-    if (beacon.tones != code) continue;
-    with_code.push_back(beacon.id);
-    if (std::find(heard.begin(), heard.end(), beacon.id) != heard.end()) with_code_heard.push_back(beacon.id);
-  }
-  if (with_code.size() == 1 && !require_announcement) return with_code.front();
-  if (with_code_heard.size() == 1) return with_code_heard.front();
-  return std::nullopt;
+  const auto has_code = [&](const Beacon& beacon) { return beacon.tones == code; };
+  const auto is_heard = [&](const Beacon& beacon) {
+    return has_code(beacon) && std::find(heard.begin(), heard.end(), beacon.id) != heard.end();
+  };
+  if (!require_announcement)
+    if (const auto unique = only_one(beacons, has_code)) return unique;
+  return only_one(beacons, is_heard);
 }
 
 void name_by_code(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
@@ -126,15 +120,13 @@ void name_by_code(std::vector<Sighting>& sightings, const std::vector<Beacon>& b
 }
 
 /// A name that the direction of its beacon's announcement contradicts is a mirror image's, or a stranger's. How many.
-int unname_contradicted(std::vector<Sighting>& sightings, const std::vector<Beacon>& beacons,
-                        const Eigen::MatrixXd& chi2, double gate_chi2) {
+int unname_contradicted(const Candidates& candidates, double gate_chi2) {
   int unnamed = 0;
-  for (int s = 0; s < chi2.rows(); ++s)
-    for (int b = 0; b < chi2.cols(); ++b) {
-      if (sightings[s].beacon != beacons[b].id || chi2(s, b) == kNever || chi2(s, b) <= gate_chi2) continue;
-      sightings[s].beacon.reset();
-      ++unnamed;
-    }
+  for (const auto& candidate : candidates) {
+    if (candidate.sighting->beacon != candidate.beacon->id || candidate.chi2 <= gate_chi2) continue;
+    candidate.sighting->beacon.reset();
+    ++unnamed;
+  }
   return unnamed;
 }
 
@@ -144,21 +136,21 @@ BeaconNamer::BeaconNamer(const BeaconNamerParams& params) : params_(params) {}
 
 int BeaconNamer::name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
                       const std::vector<Arrival>& arrivals, const CameraModel& camera,
-                      const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& estimate) const {
+                      const RigidTransform& T_base_camera, const std::optional<PoseEstimate>& estimate) {
   for (Sighting& sighting : sightings.sightings) sighting.beacon.reset();
   if (sightings.sightings.empty() || beacons.empty()) return 0;
   const double gate_chi2 = chi_square_quantile(params_.gate_probability, 2);
-  if (!estimate || !usable(*estimate)) {
-    const Eigen::MatrixXd chi2 =
-        distances_chi2(sightings.sightings, beacons, arrivals, camera, T_base_camera, params_.arrival_sigma_rad);
-    name_by_place(sightings.sightings, beacons, chi2, gate_chi2, params_.margin_chi2);
-    name_by_code(sightings.sightings, beacons, heard, params_.require_announcement);
-    return unname_contradicted(sightings.sightings, beacons, chi2, gate_chi2);
+  candidates_.clear();
+  if (estimate && usable(*estimate)) {
+    compare_places(sightings.sightings, beacons, camera, T_base_camera, *estimate, params_.model_sigma_px, candidates_);
+    name_by_place(candidates_, gate_chi2, params_.margin_chi2);
+    return 0;
   }
-  name_by_place(sightings.sightings, beacons,
-                distances_chi2(sightings.sightings, beacons, camera, T_base_camera, *estimate, params_.model_sigma_px),
-                gate_chi2, params_.margin_chi2);
-  return 0;
+  compare_arrivals(sightings.sightings, beacons, arrivals, camera, T_base_camera, params_.arrival_sigma_rad,
+                   candidates_);
+  name_by_place(candidates_, gate_chi2, params_.margin_chi2);
+  name_by_code(sightings.sightings, beacons, heard, params_.require_announcement);
+  return unname_contradicted(candidates_, gate_chi2);
 }
 
 }  // namespace lodestar

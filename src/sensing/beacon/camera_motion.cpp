@@ -25,13 +25,15 @@ void CameraMotion::reset() {
   linear_.clear();
 }
 
-void CameraMotion::append(std::deque<Rate>& rates, Stamp stamp, const Eigen::Vector3d& value, double buffer_s) {
+void CameraMotion::append(Rates& rates, Stamp stamp, const Eigen::Vector3d& value, double buffer_s) {
   if (!value.allFinite() || (!rates.empty() && stamp <= rates.back().stamp)) return;
   rates.push_back({stamp, value});
-  while (seconds(rates.back().stamp - rates.front().stamp) > buffer_s) rates.pop_front();
+  const auto recent = std::find_if(rates.begin(), rates.end(),
+                                   [&](const Rate& rate) { return seconds(stamp - rate.stamp) <= buffer_s; });
+  rates.erase(rates.begin(), recent);
 }
 
-Eigen::Vector3d CameraMotion::rate_at(const std::deque<Rate>& rates, Stamp stamp) {
+Eigen::Vector3d CameraMotion::rate_at(const Rates& rates, Stamp stamp) {
   if (rates.empty()) return Eigen::Vector3d::Zero();
   const auto after = std::lower_bound(rates.begin(), rates.end(), stamp,
                                       [](const Rate& rate, Stamp when) { return rate.stamp < when; });

@@ -256,19 +256,18 @@ void ChangeScan::for_each_peak(ChangeFlag flag, const Value& value, const Limit&
       if (value(i + d) > here) return false;
     return true;
   };
-  for (int row = 1; row < rows_ - 1; ++row) {
-    for_each_marked(flags_.data() + row * flag_stride_, flag_stride_, flag, [&](int segment) {
-      const int column = segment * kSegment, right = columns_ - 1 - column;
-      const std::ptrdiff_t first = row * stride + column;
-      const auto least = limit(tile(column, row));
-      std::uint8_t above[kSegment];
-      for (int c = 0; c < kSegment; ++c) above[c] = value(first + c) > least;  // plain arithmetic: becomes vector code
-      for_each_marked(above, kSegment, 1, [&](int c) {
-        if (column + c > 0 && c < right && is_peak(first + c))
-          found(Eigen::Vector2i(2 * (column + c), 2 * row), first + c);
-      });
+  // All rows but the outermost in one go.
+  for_each_marked(flags_.data() + flag_stride_, flag_stride_ * std::max(0, rows_ - 2), flag, [&](int mark) {
+    const int row = 1 + mark / flag_stride_, column = mark % flag_stride_ * kSegment, right = columns_ - 1 - column;
+    const std::ptrdiff_t first = row * stride + column;
+    const auto least = limit(tile(column, row));
+    std::uint8_t above[kSegment];
+    for (int c = 0; c < kSegment; ++c) above[c] = value(first + c) > least;  // plain arithmetic: becomes vector code
+    for_each_marked(above, kSegment, 1, [&](int c) {
+      if (column + c > 0 && c < right && is_peak(first + c))
+        found(Eigen::Vector2i(2 * (column + c), 2 * row), first + c);
     });
-  }
+  });
 }
 
 template <class Lane>

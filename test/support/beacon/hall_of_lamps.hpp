@@ -65,7 +65,7 @@ struct HallOfLamps {
 
     BeaconDetector detector = detector_for(scene, plan_params(), lens);
     const std::vector<Beacon> beacons = one_of_each_code();
-    const BeaconNamer alone({}), heard([] {
+    BeaconNamer alone({}), heard([] {
       BeaconNamerParams params;
       params.require_announcement = true;
       return params;
@@ -89,7 +89,7 @@ struct HallOfLamps {
         ++sightings;
         ++codes[sighting.tones];
       }
-      const auto named = [&](const BeaconNamer& namer) {
+      const auto named = [&](BeaconNamer& namer) {
         namer.name(seen, beacons, {}, {}, *camera, RigidTransform::Identity(), std::nullopt);
         return std::count_if(seen.sightings.begin(), seen.sightings.end(), [](const auto& s) { return s.beacon; });
       };

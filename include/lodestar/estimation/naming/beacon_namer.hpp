@@ -37,10 +37,18 @@ class BeaconNamer {
   /// @return how many names those directions contradict: mirror images, or somebody who sends on what he hears
   int name(Sightings& sightings, const std::vector<Beacon>& beacons, const std::vector<BeaconId>& heard,
            const std::vector<Arrival>& arrivals, const CameraModel& camera, const RigidTransform& T_base_camera,
-           const std::optional<PoseEstimate>& estimate) const;
+           const std::optional<PoseEstimate>& estimate);
+
+  /// A beacon that a sighting may be.
+  struct Candidate {
+    Sighting* sighting;
+    const Beacon* beacon;
+    double chi2;  ///< squared distance of what is seen from what is expected
+  };
 
  private:
   BeaconNamerParams params_;
+  std::vector<Candidate> candidates_;  ///< of the last sightings; kept for its memory
 };
 
 }  // namespace lodestar

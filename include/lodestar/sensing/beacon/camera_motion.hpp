@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
+#include <vector>
 
 #include "lodestar/base/geometry/rigid_transform.hpp"
 #include "lodestar/base/measurement/motion.hpp"
@@ -34,13 +34,14 @@ class CameraMotion {
     Stamp stamp;
     Eigen::Vector3d value;
   };
-  static void append(std::deque<Rate>& rates, Stamp stamp, const Eigen::Vector3d& value, double buffer_s);
-  static Eigen::Vector3d rate_at(const std::deque<Rate>& rates, Stamp stamp);
+  using Rates = std::vector<Rate>;  ///< oldest first; a few seconds of them, whose memory is kept
+  static void append(Rates& rates, Stamp stamp, const Eigen::Vector3d& value, double buffer_s);
+  static Eigen::Vector3d rate_at(const Rates& rates, Stamp stamp);
   RigidTransform T_base_before_base_after(Stamp before, Stamp after) const;
 
   double buffer_s_;
   RigidTransform T_base_camera_ = RigidTransform::Identity();
-  std::deque<Rate> angular_, yaw_, linear_;
+  Rates angular_, yaw_, linear_;
 };
 
 }  // namespace lodestar

@@ -34,8 +34,8 @@ class CommonMotion {
  private:
   /// How each track's image moves with the camera, from where the path has it now.
   void linearize(const Tracks& tracks, std::size_t count, const ImageMotion& image);
-  /// The velocities of the blobs that are seen, beside what is common. Returns how many rest.
-  int gather_velocities(const Tracks& tracks, std::size_t count);
+  /// The velocities of the blobs that are seen, beside what is common.
+  void gather_velocities(const Tracks& tracks, std::size_t count);
   void start(Tracks& tracks, std::size_t count, FrameWindow& window, const ImageMotion& image);
 
   EgoMotion ego_;

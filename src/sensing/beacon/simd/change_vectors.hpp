@@ -9,19 +9,22 @@ namespace lodestar {
 
 /// The kernel in vectors of `Arch`. Included by one source an architecture, each compiled for its own; nothing else may
 /// be included there, so that no inline function of others is compiled for a processor that may not be present.
+/// Row and units are copies: what is written, octets among it, would else make them be read anew in each segment.
 template <class Arch, bool kWithEnergy, class Pixel, class Lane>
-void change_vectors(const ChangeRow<Pixel, Lane>& row, const ChangeUnits& units) {
+void change_vectors(const ChangeRow<Pixel, Lane> row, const ChangeUnits units) {
   using Vector = xsimd::batch<Lane, Arch>;
+  using Marks = typename Vector::batch_bool_type;
   using Bits = xsimd::batch<std::make_unsigned_t<Lane>, Arch>;
   constexpr int kStep = static_cast<int>(Vector::size);
   static_assert(kSegment % kStep == 0, "a segment is whole vectors");
   constexpr int kPixelBits = 8 * sizeof(Pixel);
   const Bits low_mask(static_cast<std::make_unsigned_t<Lane>>((std::int64_t{1} << kPixelBits) - 1));
   const Vector reach(static_cast<Lane>(units.reach)), minus_reach(static_cast<Lane>(-units.reach)),
-      multiplier(static_cast<Lane>(units.multiplier));
+      multiplier(static_cast<Lane>(units.multiplier)), light(static_cast<Lane>(units.risen));
 
   for (int segment = 0; segment < row.segments; ++segment) {
-    Vector highest(Lane{0}), risen(Lane{0});
+    Marks restless(false), risen(false);
+    const Vector limit(row.limit[segment]);
     for (int i = segment * kSegment; i < (segment + 1) * kSegment; i += kStep) {
       // A lane holds two pixels: its low half and its high half.
       const auto pair = [&](const Pixel* pixels) {
@@ -32,20 +35,20 @@ void change_vectors(const ChangeRow<Pixel, Lane>& row, const ChangeUnits& units)
                                                      ((upper >> kPixelBits) + (lower >> kPixelBits)));
       sum.store_unaligned(row.cells + i);
       const Vector change = sum - Vector::load_unaligned(row.before + i);
-      risen = xsimd::max(risen, change);
+      risen = risen | (change > light);
       if constexpr (kWithEnergy) {
         const Vector difference = xsimd::min(xsimd::max(change, minus_reach), reach);
         const Vector scaled = (difference * multiplier) >> ChangeUnits::kShift;
         const Vector old = Vector::load_unaligned(row.energy + i);
         const Vector energy = old - (old >> units.forget_bits) + scaled * scaled;
         energy.store_unaligned(row.energy + i);
-        highest = xsimd::max(highest, energy);
+        restless = restless | (energy > limit);
       }
     }
-    bool restless = false;
-    if constexpr (kWithEnergy) restless = xsimd::any(highest > Vector(row.limit[segment]));
-    const bool light = xsimd::any(risen > Vector(static_cast<Lane>(units.risen)));
-    row.flags[segment] = static_cast<std::uint8_t>((restless ? kFlagRestless : 0) | (light ? kFlagRisen : 0));
+    row.flags[segment] = 0;
+    if (xsimd::any(restless | risen))
+      row.flags[segment] =
+          static_cast<std::uint8_t>((xsimd::any(restless) ? kFlagRestless : 0) | (xsimd::any(risen) ? kFlagRisen : 0));
   }
 }
 
