@@ -10,7 +10,7 @@
 namespace lodestar {
 namespace {
 
-constexpr double kModelShare = 0.0002;     ///< of its width: what the spot's shape leaves open of its centre
+constexpr double kModelShare = 0.0001;     ///< of its width: what the spot's shape leaves open of its centre
 constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better has no place to report
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
 constexpr float kBelowZero = 0.1f;         ///< of the mean: how far the tones of a light, which never is, may go
@@ -313,25 +313,37 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
     double variance;
   };
   if (reading.mean <= 0) return;  // a dark spot is no light
+  constexpr float kLeastLeft = 0.1f;
+  constexpr double kLeastFreedom = 4;
   const double shift_variance = std::max(reading.pixel_variance, 1e-9) * track.filter().shift_variance();
   // Shot noise makes bright frames noisier: half of the light counts like the peak.
   const float shot = 0.5f * track.shape().shot;
-  const auto estimate = [&](const auto& light) {
-    weights_ = light / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
-    const float information = (weights_ * light).sum();
+  weights_ = 1 / (1 + shot * (reading.mean + wave_).max(0.0f) / std::max(reading.mean, 1e-6f));
+  const float all_weight = weights_.sum();
+  // Least squares of shift = offset * light. `constant`: of the weights, where a constant has been taken off both.
+  const auto estimate = [&](const auto& light, const auto& shift_u, const auto& shift_v, float constant) {
+    const float information = (weights_ * light.square()).sum();
     const Eigen::Vector2f offset =
-        Eigen::Vector2f((weights_ * track.shift_u()).sum(), (weights_ * track.shift_v()).sum()) / information;
-    // From the residuals themselves, each frame with its own noise (White, with the jackknife's correction).
-    const float square = (weights_.square() * ((track.shift_u() - offset.x() * light).square() +
-                                               (track.shift_v() - offset.y() * light).square()))
-                             .sum();
-    const auto frames = static_cast<float>(weights_.size());
-    return Estimate{offset.cast<double>(), 0.5 * square / (information * information) * frames / (frames - 2)};
+        Eigen::Vector2f((weights_ * light * shift_u).sum(), (weights_ * light * shift_v).sum()) / information;
+    // From the residuals themselves, each frame with its own noise and its own say in the fit (Bell and McCaffrey):
+    // what has much say leaves little. A variance that is known from so few of them is that of Student's t.
+    model_ = weights_ * light.square() / information;
+    const double square =
+        (weights_ * model_ * ((shift_u - offset.x() * light).square() + (shift_v - offset.y() * light).square()) /
+         (1 - model_ - constant * weights_).max(kLeastLeft))
+            .sum();
+    const double freedom = std::max(kLeastFreedom, 2.0 * (1 / model_.square().sum() - 1));
+    return Estimate{offset.cast<double>(), 0.5 * square / information * freedom / (freedom - 2)};
+  };
+  const auto beside_constant = [&](const BlobTrack::Series& series) {
+    return series - (weights_ * series).sum() / all_weight;
   };
   // All light says most. What else shines beside the blob, steadily, pulls it; the code's part alone is not pulled.
   const bool bright = reading.mean * reading.mean > 36 * shift_variance;
-  Estimate best = bright ? estimate(track.flux()) : estimate((reading.mean + wave_).max(0.0f));
-  const Estimate coded = estimate(wave_);
+  Estimate best = bright ? estimate(track.flux(), track.shift_u(), track.shift_v(), 0)
+                         : estimate((reading.mean + wave_).max(0.0f), track.shift_u(), track.shift_v(), 0);
+  const Estimate coded = estimate(beside_constant(wave_), beside_constant(track.shift_u()),
+                                  beside_constant(track.shift_v()), 1 / all_weight);
   constexpr double kPulledPx = 0.005, kPulledSigmas2 = 40;
   if ((coded.offset - best.offset).squaredNorm() > kPulledPx * kPulledPx + kPulledSigmas2 * coded.variance)
     best = coded;
