@@ -38,6 +38,7 @@ LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<d
   params.filter.odometry_yaw_rate_sigma_rad_s = vehicle.odometry_yaw_rate_sigma_rad_s;
   params.filter.odometry_scale_sigma = vehicle.odometry_scale_sigma;
   params.filter.camera_mount_sigma_rad = vehicle.camera_mount_sigma_rad;
+  params.filter.level_sigma_rad = vehicle.level_sigma_rad;
 
   params.calibration_sigma_px = vehicle.calibration_sigma_px;
   params.diodes = vehicle.diodes;

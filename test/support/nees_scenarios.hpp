@@ -10,6 +10,14 @@
 
 namespace lodestar::test {
 
+/// The filter is told the sigmas that the simulation draws from: the defaults are SensorErrors', the floor is
+/// TruckDrive's.
+inline PoseFilterParams told() {
+  PoseFilterParams params;
+  params.level_sigma_rad = TruckDrive::kFloorTilt_rad;
+  return params;
+}
+
 /// One way to drive, and from when to when its errors count.
 struct NeesScenario {
   std::string name;
@@ -19,7 +27,7 @@ struct NeesScenario {
   double spacing_m = 5;
   Eigen::Vector3d imu_position_base = Eigen::Vector3d::Zero();
   SensorErrors errors = {};
-  PoseFilterParams params = {};
+  PoseFilterParams params = told();
 };
 
 inline std::vector<NeesScenario> nees_scenarios() {

@@ -25,10 +25,12 @@ class TruckDrive {
  public:
   static constexpr int kRate_hz = 1200;  // a multiple of 200, 60, 50 and 30
 
-  TruckDrive(const std::vector<Waypoint>& plan, std::uint64_t seed, double floor_slope_rad = radians(0.15),
-             double sway_rad_per_m_s2 = 0.002) {
+  static constexpr double kFloorTilt_rad = radians(0.15);  ///< rms, each axis
+  static constexpr double kSway_rad_per_m_s2 = 0.002;      ///< by acceleration
+
+  TruckDrive(const std::vector<Waypoint>& plan, std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    make_floor(random, floor_slope_rad);
+    make_floor(random);
     const auto samples = static_cast<std::size_t>(plan.back().t_s * kRate_hz) + 1;
     double x = 0, y = 0, yaw = 0;
     for (std::size_t i = 0; i < samples; ++i) {
@@ -38,8 +40,8 @@ class TruckDrive {
       const Eigen::Vector3d floor = floor_at(x, y);
       const double c = std::cos(yaw), s = std::sin(yaw);
       const double slope_along = c * floor.y() + s * floor.z(), slope_across = -s * floor.y() + c * floor.z();
-      const double pitch = -std::atan(slope_along) - sway_rad_per_m_s2 * acceleration;
-      const double roll = std::atan(slope_across) + sway_rad_per_m_s2 * v * w;
+      const double pitch = -std::atan(slope_along) - kSway_rad_per_m_s2 * acceleration;
+      const double roll = std::atan(slope_across) + kSway_rad_per_m_s2 * v * w;
       position_.emplace_back(x, y, floor.x());
       rotation_.push_back(rotation({roll, pitch, yaw}));
       const double middle = yaw + 0.5 * w / kRate_hz;
@@ -92,13 +94,13 @@ class TruckDrive {
     double kx, ky, phase, height;
   };
 
-  void make_floor(std::mt19937_64& random, double slope_rad) {
+  void make_floor(std::mt19937_64& random) {
     constexpr int kWaves = 8;
     std::uniform_real_distribution<double> angle(0, 2 * kPi), length_m(2.0, 8.0);
     for (int i = 0; i < kWaves; ++i) {
       const double k = 2 * kPi / length_m(random), a = angle(random);
       // Slope along one axis: rms k h / 2 for waves from all sides.
-      waves_.push_back({k * std::cos(a), k * std::sin(a), angle(random), 2.0 * slope_rad / std::sqrt(kWaves) / k});
+      waves_.push_back({k * std::cos(a), k * std::sin(a), angle(random), 2.0 * kFloorTilt_rad / std::sqrt(kWaves) / k});
     }
   }
 

@@ -20,7 +20,7 @@ const std::vector<YamlKey> kForkKeys = {
     {"mount", false}, {"height_sigma_m", false}, {"seat_sigma_m", false}, {"seat_sigma_deg", false}};
 const std::vector<YamlKey> kPalletKeys = {{"type", true}, {"length_m", true}, {"width_m", true}, {"deck_m", false}};
 const std::vector<YamlKey> kFloorKeys = {{"z_m", true}, {"tolerance_m", false}};
-const std::vector<YamlKey> kVehicleKeys = {{"name", true}};
+const std::vector<YamlKey> kVehicleKeys = {{"name", true}, {"level_sigma_deg", false}};
 const std::vector<YamlKey> kCameraKeys = {
     {"mount", false},         {"mount_sigma_deg", false},      {"rate_hz", false},  {"window_frames", false},
     {"time_offset_s", false}, {"calibration_sigma_px", false}, {"mains_hz", false}, {"white_level", false}};
@@ -58,6 +58,11 @@ void read_mains(const YamlMap& map, double& mains_hz) {
   if (!value) return;
   if (*value != 50 && *value != 60) map.fault("mains_hz", "is " + std::to_string(*value) + ": give 50 or 60");
   mains_hz = static_cast<double>(*value);
+}
+
+void read_vehicle(const YamlMap& map, Vehicle& vehicle) {
+  vehicle.name = map.text("name").value_or(vehicle.name);
+  read_degrees(map, "level_sigma_deg", above(0, 10), vehicle.level_sigma_rad);
 }
 
 void read_camera(const YamlMap& map, Vehicle& vehicle) {
@@ -152,7 +157,7 @@ void read_infrared(const YamlMap& map, FaultLog& faults, Vehicle& vehicle) {
 Vehicle read_vehicle(const YAML::Node& root, FaultLog& faults) {
   const YamlMap file(root, "", 1, kFileKeys, faults);
   Vehicle vehicle;
-  vehicle.name = file.section("vehicle", kVehicleKeys).text("name").value_or(vehicle.name);
+  read_vehicle(file.section("vehicle", kVehicleKeys), vehicle);
   read_camera(file.section("camera", kCameraKeys), vehicle);
   read_imu(file.section("imu", kImuKeys), vehicle);
   read_odometry(file.section("odometry", kOdometryKeys), vehicle);

@@ -100,15 +100,14 @@ bool use(FilterState& state, const Candidate& candidate, const Rig& rig, const G
          const PoseFilterParams& params, InnovationMeans& innovations) {
   auto m = innovation(state, candidate, rig, params);
   SourceOffset& offset = state.offsets[candidate.offset];
-  const double distance2 = m ? squared_distance(state.P, *m) : std::numeric_limits<double>::infinity();
-  if (distance2 > gates.chi2_2) {
+  if (m) m->inflation = noise_inflation(state, offset, params);
+  const double distance2 = m ? correct_within(gates.chi2_2, state, *m) : std::numeric_limits<double>::infinity();
+  if (!(distance2 <= gates.chi2_2)) {
     ++offset.gated;
     return false;
   }
   innovations.bearings.add(distance2, 2);
   offset.gated = 0;
-  m->inflation = noise_inflation(state, offset, params);
-  correct(state, *m);
   offset.last_used = state.stamp;
   return true;
 }

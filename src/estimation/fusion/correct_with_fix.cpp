@@ -43,20 +43,19 @@ Tally correct_with_fix(FilterState& state, const Fix& fix, const Rig& rig, const
   const int yaw = offset_of(state, kFixYaw, yaw_prior(share * C(3, 3)), params);
   Innovation<4> m = fix_innovation(state, fix, position, yaw, rig, (1.0 - share) * C);
   if (share > 0) m.R.diagonal().array() += 1e-12;
+  std::optional<Stamp>& last_used = state.offsets[position].last_used;
+  if (last_used)
+    m.inflation = std::max(1.0, params.fix_correlation_s / std::max(seconds(state.stamp - *last_used), 1e-3));
   Tally tally;
-  const double distance2 = squared_distance(state.P, m);
-  if (distance2 > gates.chi2_4) {
+  const double distance2 = correct_within(gates.chi2_4, state, m);
+  if (!(distance2 <= gates.chi2_4)) {
     note_rejected(state, params);
     tally.gated = 1;
     return tally;
   }
   tally.used = 1;
   tally.innovations.fixes.add(distance2, 4);
-  std::optional<Stamp>& last_used = state.offsets[position].last_used;
-  if (last_used)
-    m.inflation = std::max(1.0, params.fix_correlation_s / std::max(seconds(state.stamp - *last_used), 1e-3));
   last_used = state.stamp;
-  correct(state, m);
   note_accepted(state);
   return tally;
 }

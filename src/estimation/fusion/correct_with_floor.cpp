@@ -15,8 +15,7 @@ void correct_with_floor(FilterState& state, const Gates& gates, const PoseFilter
   if (state.floor_place && (state.position - *state.floor_place).head<2>().norm() < apart_m) return;
   if (!imu_heard(state, params) || acceleration_base(state).head<2>().norm() > kSways_m_s2) return;
   state.floor_place = state.position;
-  const Innovation<2> floor = floor_innovation(state, params);
-  if (squared_distance(state.P, floor) <= gates.chi2_2) correct(state, floor);
+  correct_within(gates.chi2_2, state, floor_innovation(state, params));
 }
 
 }  // namespace lodestar::fusion

@@ -50,9 +50,8 @@ bool watch_for_slip(FilterState& state, const Innovation<3>& m, double step_m_s,
 Tally use(FilterState& state, const Innovation<3>& m, const Gates& gates) {
   Tally tally;
   std::optional<Stamp>& since = state.health.wheels_rejected_since;
-  const double distance2 = squared_distance(state.P, m);
+  const double distance2 = correct_within(gates.chi2_3, state, m);
   if (distance2 <= gates.chi2_3) {
-    correct(state, m);
     since.reset();
     tally.used = 1;
     tally.innovations.wheels.add(distance2, 3);
@@ -97,10 +96,8 @@ Tally correct_standing(FilterState& state, const Eigen::Vector3d& angular_veloci
                        const PoseFilterParams& params) {
   state.inputs.leap = WheelLeap{};
   const Tally tally = use(state, standing_velocity_innovation(state), gates);
-  if (tally.used > 0 && imu_heard(state, params)) {
-    const Innovation<3> gyro = standing_gyro_innovation(state, angular_velocity, params);
-    if (squared_distance(state.P, gyro) <= gates.chi2_3) correct(state, gyro);
-  }
+  if (tally.used > 0 && imu_heard(state, params))
+    correct_within(gates.chi2_3, state, standing_gyro_innovation(state, angular_velocity, params));
   return tally;
 }
 

@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "lodestar/base/common/chi_square.hpp"
-#include "lodestar/estimation/fusion/kalman_update.hpp"
 #include "lodestar/estimation/fusion/optical_health.hpp"
 #include "lodestar/estimation/fusion/plausible.hpp"
 #include "lodestar/estimation/fusion/propagation.hpp"
@@ -166,7 +165,6 @@ Tally PoseFilter::apply(FilterState& state, std::size_t i) const {
     tally = fusion::correct_with_bearings(state, *bearings, rig_, gates_, integrity_, params_);
   else if (const auto* fix = std::get_if<Fix>(&entry.event))
     tally = fusion::correct_with_fix(state, *fix, rig_, gates_, params_);
-  fusion::symmetrize(state.P);
   return tally;
 }
 

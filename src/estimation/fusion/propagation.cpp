@@ -89,7 +89,7 @@ PlanarNoise planar_noise(const FilterState& state, double dt_s, const PoseFilter
   noise.acceleration_m2_s3 = acceleration * acceleration * 0.2;  // a pull lasts some tenths of a second
   noise.vertical_m2_s3 = 0.01 * noise.acceleration_m2_s3;
   noise.tilt_kept = std::exp(-state.velocity.head<2>().norm() * dt_s / params.floor_correlation_m);
-  noise.tilt_sigma_rad = params.floor_tilt_sigma_rad;
+  noise.tilt_sigma_rad = params.level_sigma_rad;
   return noise;
 }
 

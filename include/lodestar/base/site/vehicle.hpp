@@ -27,6 +27,7 @@ struct Vehicle {
   /// Empty: from /tf_static. The tines' upper side at its lowest, between their roots where a pallet comes to rest; x
   /// along the tines.
   std::optional<RigidTransform> T_base_fork;
+  double level_sigma_rad = 0.005;            ///< of base_link's roll and pitch at large: floor, tyres, load
   double camera_mount_sigma_rad = 0.002;     ///< of the mount's roll, pitch, yaw
   std::optional<int> window_frames;          ///< empty: window_frames(tone table, rate)
   std::optional<double> camera_rate_hz;      ///< empty: from the stamps

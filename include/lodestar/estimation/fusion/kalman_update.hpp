@@ -23,17 +23,28 @@ struct Innovation {
   double inflation = 1;  ///< of R in the update, not in the gate: for noise that is not white from sample to sample
 };
 
+/// A column for each row of an innovation.
 template <int N>
-Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N> covariance_times_jacobian(const Covariance& P,
-                                                                                   const Innovation<N>& m) {
-  Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N> PHt = P.leftCols<kCore>().lazyProduct(m.H.transpose());
-  for (int i = 0; i < m.offset_count; ++i)
-    PHt += P.middleCols<3>(kCore + 3 * m.offsets[i].index).lazyProduct(m.offsets[i].H.transpose());
+using Tall = Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N>;
+
+/// P H^T. A measurement sees few parts of the core: its H is taken in blocks of three columns, and those of zeros are
+/// left out.
+template <int N>
+Tall<N> covariance_times_jacobian(const Covariance& P, const Innovation<N>& m) {
+  Tall<N> PHt = Tall<N>::Zero(P.rows(), N);
+  const auto add = [&](int at, const Eigen::Matrix<double, N, 3>& H) {
+    PHt += P.middleCols<3>(at).lazyProduct(H.transpose());
+  };
+  for (int at = 0; at < kCore; at += 3) {
+    const Eigen::Matrix<double, N, 3> H = m.H.template middleCols<3>(at);
+    if ((H.array() != 0).any()) add(at, H);
+  }
+  for (int i = 0; i < m.offset_count; ++i) add(kCore + 3 * m.offsets[i].index, m.offsets[i].H);
   return PHt;
 }
 
-template <int N, class PHt>
-Eigen::Matrix<double, N, N> jacobian_times(const Innovation<N>& m, const PHt& X) {
+template <int N>
+Eigen::Matrix<double, N, N> jacobian_times(const Innovation<N>& m, const Tall<N>& X) {
   Eigen::Matrix<double, N, N> HX = m.H * X.template topRows<kCore>();
   for (int i = 0; i < m.offset_count; ++i)
     HX += m.offsets[i].H * X.template middleRows<3>(kCore + 3 * m.offsets[i].index);
@@ -47,22 +58,23 @@ double squared_distance(const Covariance& P, const Innovation<N>& m) {
   return m.residual.dot(S.llt().solve(m.residual));
 }
 
-/// Kalman update. The covariance is Joseph's form multiplied out,
-/// P - K H P - P H^T K^T + K S K^T = P - K B^T - B K^T with B = P H^T - K S / 2, which keeps its second-order
-/// insensitivity to errors of K at the cost of one product of rank 2 N.
+/// Kalman update, unless the squared distance, which is returned, lies beyond the gate. The covariance is Joseph's form
+/// multiplied out, P - K H P - P H^T K^T + K S K^T = P - (K B^T + B K^T) with B = P H^T - K S / 2, which keeps its
+/// second-order insensitivity to errors of K at the cost of one product of rank 2 N. Taken off at once, as here, what
+/// is symmetric stays so.
 template <int N>
-void correct(FilterState& state, const Innovation<N>& m) {
-  const auto PHt = covariance_times_jacobian(state.P, m);
-  const Eigen::Matrix<double, N, N> S = jacobian_times(m, PHt) + m.inflation * m.R;
-  using Tall = Eigen::Matrix<double, Eigen::Dynamic, N, 0, kMaxSize, N>;
-  const Tall K = S.llt().solve(PHt.transpose()).transpose();
-  const Tall B = PHt - 0.5 * K * S;
-  state.P -= K.lazyProduct(B.transpose());
-  state.P -= B.lazyProduct(K.transpose());
+double correct_within(double gate_chi2, FilterState& state, const Innovation<N>& m) {
+  const Tall<N> PHt = covariance_times_jacobian(state.P, m);
+  const Eigen::Matrix<double, N, N> HPHt = jacobian_times(m, PHt);
+  const Eigen::Matrix<double, N, N> expected = HPHt + m.R;
+  const double distance2 = m.residual.dot(expected.llt().solve(m.residual));
+  if (!(distance2 <= gate_chi2)) return distance2;
+  const Eigen::Matrix<double, N, N> S = HPHt + m.inflation * m.R;
+  const Tall<N> K = S.llt().solve(PHt.transpose()).transpose();
+  const Tall<N> B = PHt - 0.5 * K * S;
+  state.P -= K.lazyProduct(B.transpose()) + B.lazyProduct(K.transpose());
   add_error(state, K * m.residual);
+  return distance2;
 }
-
-/// Takes the rounding's asymmetry off.
-void symmetrize(Covariance& P);
 
 }  // namespace lodestar::fusion

@@ -13,6 +13,7 @@ struct PoseFilterParams {
   double odometry_yaw_rate_sigma_rad_s = 0.01;
   double odometry_scale_sigma = 0.02;     ///< relative; of the speed and of the yaw rate
   double camera_mount_sigma_rad = 0.002;  ///< each axis
+  double level_sigma_rad = 0.005;         ///< base_link's tilt at large: floor 0.2 deg, tyres and load as much
 
   double camera_time_offset_sigma_s = 0.001;    ///< of the stamps; 0: taken for exact, and the state is switched off
   double camera_time_offset_correlation_s = 5;  ///< how long a time offset lasts
@@ -49,8 +50,6 @@ struct PoseFilterParams {
   double mount_drift_rad_sqrt_s = 1e-5;                ///< random walk
   double scale_drift_sqrt_s = 1e-4;                    ///< random walk of the wheels' scales
 
-  double level_sigma_rad = 0.005;             ///< base_link's tilt at large: floor 0.2 deg, tyres and load as much
-  double floor_tilt_sigma_rad = 0.003;        ///< floor and sway; without an inertial sensor only
   double floor_correlation_m = 1.0;           ///< way over which the floor's tilt changes
   double vehicle_acceleration_m_s2 = 1.5;     ///< what a truck does; where no inertial sensor says it
   double vertical_velocity_sigma_m_s = 0.03;  ///< of base_link along its own z

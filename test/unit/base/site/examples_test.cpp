@@ -41,6 +41,7 @@ TEST(Examples, the_truck_is_the_default_vehicle) {
   ASSERT_TRUE(truck.ok());
   const Vehicle defaults;
   EXPECT_EQ(truck->name, defaults.name);
+  EXPECT_NEAR(truck->level_sigma_rad, defaults.level_sigma_rad, 1e-5);
   EXPECT_NEAR(truck->camera_mount_sigma_rad, defaults.camera_mount_sigma_rad, 1e-5);
   EXPECT_NEAR(truck->gyro_noise_rad_s, defaults.gyro_noise_rad_s, 1e-5);
   EXPECT_NEAR(truck->gyro_bias_rad_s, defaults.gyro_bias_rad_s, 1e-5);

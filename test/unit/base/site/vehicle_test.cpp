@@ -8,7 +8,7 @@
 namespace lodestar {
 namespace {
 
-const char kGood[] = R"(vehicle: {name: t7}
+const char kGood[] = R"(vehicle: {name: t7, level_sigma_deg: 0.15}
 camera:
   mount: {xyz_m: [0.2, -0.1, 2.1], rpy_deg: [1, -2, 90]}
   mount_sigma_deg: 0.5
@@ -38,6 +38,7 @@ TEST(Vehicle, reads_every_key_with_degrees_made_radians) {
   const auto vehicle = parse_vehicle(kGood, "v.yaml");
   ASSERT_TRUE(vehicle.ok()) << describe(vehicle.error());
   EXPECT_EQ(vehicle->name, "t7");
+  EXPECT_NEAR(vehicle->level_sigma_rad, radians(0.15), 1e-15);
   ASSERT_TRUE(vehicle->T_base_camera && vehicle->T_base_imu);
   EXPECT_EQ(vehicle->T_base_camera->translation(), Eigen::Vector3d(0.2, -0.1, 2.1));
   const RollPitchYaw rpy = roll_pitch_yaw(vehicle->T_base_camera->linear());
@@ -136,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"type: half", "type: epal", "23: pallets[1].type \"epal\" is there twice: give each its own name"},
         Wrong{"length_m: 0.8, ", "", "22: pallets[0] has no \"length_m\": add it"},
         Wrong{"tolerance_m: 0.2", "tolerance_m: 0", "24: floor.tolerance_m is 0: give a number above 0 and up to 10"},
-        Wrong{"{name: t7}", "{}", "1: vehicle has no \"name\": add it"},
+        Wrong{"name: t7, ", "", "1: vehicle has no \"name\": add it"},
         Wrong{"odometry:", "imu: {}\nodometry:", "16: key \"imu\" is there twice (first on line 11): keep one"}));
 
 TEST(Vehicle, lists_all_faults_at_once) {

@@ -41,7 +41,11 @@ TEST(KalmanUpdate, is_the_textbook_update) {
   const Eigen::MatrixXd joseph = (I - K * H) * P * (I - K * H).transpose() + K * R * K.transpose();
 
   EXPECT_NEAR(squared_distance(x.P, m), m.residual.dot((H * P * H.transpose() + m.R).inverse() * m.residual), 1e-12);
-  correct(x, m);
+  const double distance2 = squared_distance(x.P, m);
+  EXPECT_EQ(correct_within(0.99 * distance2, x, m), distance2);
+  EXPECT_EQ(Eigen::MatrixXd(x.P), P) << "beyond its gate";
+  EXPECT_EQ(correct_within(1.01 * distance2, x, m), distance2);
+  EXPECT_LT((x.P - x.P.transpose()).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((Eigen::MatrixXd(x.P) - joseph).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_NEAR(x.position.x(), K.row(kPosition).dot(m.residual), 1e-12);
   EXPECT_NEAR(x.offsets[1].value.z(), K.row(kCore + 5).dot(m.residual), 1e-12);
