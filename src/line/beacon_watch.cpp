@@ -54,15 +54,15 @@ bool BeaconWatch::add(Stamp stamp, const std::vector<BeaconCheck>& checks, const
     if (liars.count(check.beacon) == 0) others.insert(check.beacon);
   if (others.size() < 2 || others.size() <= liars.size()) return false;
   bool one_more = false;
-  for (const BeaconId id : others) count(id, -elapsed_s);
-  for (const BeaconId id : liars) one_more |= count(id, elapsed_s);
+  for (const BeaconId id : others) count(id, -elapsed_s, stamp);
+  for (const BeaconId id : liars) one_more |= count(id, elapsed_s, stamp);
   return one_more;
 }
 
-bool BeaconWatch::count(BeaconId id, double seconds) {
+bool BeaconWatch::count(BeaconId id, double seconds, Stamp stamp) {
   double& sum_s = disagreed_s_[id];
   sum_s = std::max(0.0, sum_s + seconds);
-  return sum_s >= kDisagree_s && distrusted_.insert(id).second;
+  return sum_s >= kDisagree_s && distrusted_.emplace(id, stamp).second;
 }
 
 std::vector<Beacon> BeaconWatch::trusted(const std::vector<Beacon>& beacons) const {
@@ -72,7 +72,9 @@ std::vector<Beacon> BeaconWatch::trusted(const std::vector<Beacon>& beacons) con
   return out;
 }
 
-bool BeaconWatch::confirm(BeaconId id) {
+bool BeaconWatch::confirm(BeaconId id, Stamp stamp) {
+  const auto known = distrusted_.find(id);
+  if (known != distrusted_.end() && stamp <= known->second) return false;
   disagreed_s_.erase(id);
   return distrusted_.erase(id) > 0;
 }

@@ -65,15 +65,15 @@ bool FusionStage::add_sightings(const Sightings& sightings) {
   return one_more;
 }
 
-void FusionStage::distrust(const std::set<BeaconId>& ids) {
-  watch_.distrust(ids);
+void FusionStage::distrust(const std::map<BeaconId, Stamp>& since) {
+  watch_.distrust(since);
   pick_trusted();
 }
 
-bool FusionStage::confirm(BeaconId id) {
-  const bool was_distrusted = watch_.confirm(id);
+bool FusionStage::confirm(BeaconId id, Stamp stamp) {
+  if (!watch_.confirm(id, stamp)) return false;
   pick_trusted();
-  return was_distrusted;
+  return true;
 }
 
 void FusionStage::add_fix(const Fix& fix) {

@@ -84,9 +84,9 @@ void LocalizationLine::share_beacons() {
   pose_.set_beacons(fusion_.trusted());
 }
 
-bool LocalizationLine::confirm(BeaconId id) {
+bool LocalizationLine::confirm(BeaconId id, Stamp stamp) {
   if (!table_.confirm(id)) return false;
-  fusion_.confirm(id);
+  fusion_.confirm(id, stamp);
   share_beacons();
   return true;
 }

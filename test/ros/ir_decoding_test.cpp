@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
-#include <std_msgs/UInt32MultiArray.h>
 
 #include <fstream>
 #include <iterator>
 
 #include "lodestar/BeaconAnnouncement.h"
+#include "lodestar/BeaconConfirmation.h"
 #include "lodestar/ConfirmBeacon.h"
+#include "lodestar/DistrustedBeaconArray.h"
 #include "lodestar/GetBeacons.h"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
@@ -30,6 +31,13 @@ const char* const kType = "lodestar/IrDecodingNodelet";
 std::string text_of(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+DistrustedBeacon distrusted_since(std::uint32_t id, const ros::Time& since) {
+  DistrustedBeacon beacon;
+  beacon.beacon_id = id;
+  beacon.since = since;
+  return beacon;
 }
 
 class IrDecoding : public testing::Test {
@@ -76,8 +84,8 @@ class IrDecoding : public testing::Test {
   BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
   Inbox<BeaconAnnouncement> conflicts_{nh_, "/beacons/conflicts"};
-  Inbox<BeaconAnnouncement> confirmed_{nh_, "/beacons/confirmed"};
-  ros::Publisher distrusted_ = nh_.advertise<std_msgs::UInt32MultiArray>("/beacons/distrusted", 10);
+  Inbox<BeaconConfirmation> confirmed_{nh_, "/beacons/confirmed"};
+  ros::Publisher distrusted_ = nh_.advertise<DistrustedBeaconArray>("/beacons/distrusted", 10);
   ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 10);
   Diagnostics diagnostics_{nh_};
 };
@@ -168,13 +176,19 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_TRUE(confirm.response.success) << confirm.response.message;
   EXPECT_TRUE(wait_for([&] { return confirmed_.size() == 1; }));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
+  const Beacon& other = site_.beacons[1];
+  confirm.request.beacon_id = other.id.value;
+  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
 
   // Its restart forgets nothing of that, and whoever listens anew is told.
   ASSERT_TRUE(unload_nodelet(kNode));
   ASSERT_TRUE(load_nodelet(kNode, kType));
-  ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
-  EXPECT_EQ(confirmed_.last().beacon_id, moved.beacon.value);
-  EXPECT_NEAR(confirmed_.last().position.x, moved.position_map.x(), 1e-9);
+  ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 4; }));
+  const BeaconConfirmation told = *confirmed_.all()[2];
+  EXPECT_EQ(told.announcement.beacon_id, moved.beacon.value);
+  EXPECT_NEAR(told.announcement.position.x, moved.position_map.x(), 1e-9);
+  EXPECT_EQ(told.header.stamp, confirmed_.all()[0]->header.stamp) << "when it was confirmed, not when it is told";
   ASSERT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
   for (const auto& entry : table.response.beacons) {
     EXPECT_FALSE(entry.conflict);
@@ -182,18 +196,27 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
     EXPECT_NEAR(entry.position.x, moved.position_map.x(), 1e-9);
   }
 
-  // The filter finds it out again: it is no longer confirmed, and whoever listens anew is not told.
-  std_msgs::UInt32MultiArray distrusted;
-  distrusted.data = {moved.beacon.value};
-  const auto kept = [&] { return text_of(folder_ / "confirmed.yaml").find("id:") != std::string::npos; };
-  EXPECT_TRUE(kept());
+  // Whom the filter found out since is no longer confirmed; who was confirmed since stays so, whoever starts when.
+  const auto kept = [&](BeaconId id) {
+    return text_of(folder_ / "confirmed.yaml").find("id: " + std::to_string(id.value)) != std::string::npos;
+  };
+  EXPECT_TRUE(kept(moved.beacon) && kept(other.id));
+  DistrustedBeaconArray distrusted;
+  distrusted.beacons = {distrusted_since(moved.beacon.value, told.header.stamp - ros::Duration(1)),
+                        distrusted_since(other.id.value, confirmed_.last().header.stamp)};
   ASSERT_TRUE(wait_for([&] { return distrusted_.getNumSubscribers() > 0; }));
   distrusted_.publish(distrusted);
-  EXPECT_TRUE(wait_for([&] { return !kept(); }));
-  // Confirmed once more while the filter does not run: what it tells when it starts was known before.
-  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  EXPECT_TRUE(wait_for([&] { return !kept(other.id); }));
+  EXPECT_TRUE(kept(moved.beacon));
+  // Also where the clock was set back between the two.
+  distrusted.beacons = {distrusted_since(moved.beacon.value, told.header.stamp + ros::Duration(100))};
   distrusted_.publish(distrusted);
-  EXPECT_FALSE(wait_for([&] { return !kept(); }, 0.5));
+  EXPECT_TRUE(wait_for([&] { return !kept(moved.beacon); }));
+  confirm.request.beacon_id = moved.beacon.value;
+  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 5; }));
+  EXPECT_GT(confirmed_.last().header.stamp, distrusted.beacons[0].since);
+  EXPECT_TRUE(kept(moved.beacon));
 
   ASSERT_TRUE(wait_for([&] { return announcements_.connected(); }));
   player_.play(0.9);  // one superframe to hear the time of the site

@@ -1,7 +1,6 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
-#include <std_msgs/UInt32MultiArray.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -10,8 +9,9 @@
 #include <iterator>
 #include <limits>
 
-#include "lodestar/BeaconAnnouncement.h"
+#include "lodestar/BeaconConfirmation.h"
 #include "lodestar/BeaconSightingArray.h"
+#include "lodestar/DistrustedBeaconArray.h"
 #include "lodestar/PoseIntegrity.h"
 #include "lodestar/estimation/fusion/pose_filter.hpp"
 #include "lodestar/ros/convert/message_drop.hpp"
@@ -56,6 +56,13 @@ class PoseFusion : public testing::Test {
     });
   }
 
+  void confirm(std::uint32_t id, std::uint32_t at_s) {
+    BeaconConfirmation confirmation;
+    confirmation.header.stamp = ros::Time(at_s);
+    confirmation.announcement.beacon_id = id;
+    confirmed_out_.publish(confirmation);
+  }
+
   ros::NodeHandle nh_;
   TemporaryFolder folder_;
   const std::string memory_ = folder_ / "distrusted.yaml";
@@ -65,8 +72,8 @@ class PoseFusion : public testing::Test {
   Inbox<nav_msgs::Odometry> odometry_{nh_, "/odometry/filtered"};
   Inbox<PoseIntegrity> integrity_{nh_, "/pose/integrity"};
   Diagnostics diagnostics_{nh_};
-  Inbox<std_msgs::UInt32MultiArray> distrusted_{nh_, "/beacons/distrusted"};
-  ros::Publisher confirmed_out_ = nh_.advertise<BeaconAnnouncement>("/beacons/confirmed", 10);
+  Inbox<DistrustedBeaconArray> distrusted_{nh_, "/beacons/distrusted"};
+  ros::Publisher confirmed_out_ = nh_.advertise<BeaconConfirmation>("/beacons/confirmed", 10);
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
   ros::Publisher fix_out_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/beacons/fix", 10);
   tf2_ros::Buffer tf_;
@@ -74,21 +81,28 @@ class PoseFusion : public testing::Test {
 };
 
 TEST_F(PoseFusion, FollowsTheTruthAndOutlivesBadInput) {
-  // A beacon that was left out before the node began is named, also after one more start, until it is confirmed.
-  EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
+  // A memory file without the times is none of this version.
+  EXPECT_NE(diagnostics_.message(kNode).find(memory_ + " cannot be understood"), std::string::npos)
+      << diagnostics_.message(kNode);
   ASSERT_TRUE(unload_nodelet(kNode));
   diagnostics_.forget(kNode);
+
+  // Beacons that were left out before the node began are named, each until it is confirmed after it was found out.
+  std::ofstream(memory_) << "[{id: 13, since_ns: 5000000000}, {id: 14, since_ns: 5000000000}]";
   ASSERT_TRUE(load_nodelet(kNode, kType));
-  EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
-  ASSERT_TRUE(wait_for([&] { return !distrusted_.empty() && distrusted_.last().data.size() == 1; }));
-  EXPECT_EQ(distrusted_.last().data[0], 13u);
-  BeaconAnnouncement confirmation;
-  confirmation.beacon_id = 13;
+  EXPECT_TRUE(left_out("13 14")) << diagnostics_.message(kNode);
+  ASSERT_TRUE(wait_for([&] { return !distrusted_.empty() && distrusted_.last().beacons.size() == 2; }));
+  EXPECT_EQ(distrusted_.last().beacons[0].beacon_id, 13u);
+  EXPECT_EQ(distrusted_.last().beacons[0].since, ros::Time(5));
   EXPECT_TRUE(wait_for([&] { return confirmed_out_.getNumSubscribers() > 0; }));
-  confirmed_out_.publish(confirmation);
-  EXPECT_TRUE(left_out("")) << diagnostics_.message(kNode);
+  confirm(13, 5);
+  confirm(14, 6);
+  EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
   std::ifstream file(memory_);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}).find("13"), std::string::npos);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(text.find("\n[{id: 13, since_ns: 5000000000}]"), std::string::npos) << text;
+  confirm(13, 6);
+  EXPECT_TRUE(left_out("")) << diagnostics_.message(kNode);
   ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
   ASSERT_TRUE(wait_for([&] { return poses_.connected() && odometry_.connected(); }));
 

@@ -1,11 +1,11 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
-#include <std_msgs/UInt32MultiArray.h>
 
 #include <cmath>
 #include <limits>
 
 #include "lodestar/BeaconSightingArray.h"
+#include "lodestar/DistrustedBeaconArray.h"
 #include "lodestar/estimation/pose/pose_solver.hpp"
 #include "lodestar/ros/convert/message_drop.hpp"
 #include "lodestar/ros/nodelets/edge_drop.hpp"
@@ -46,7 +46,7 @@ class PoseSolving : public testing::Test {
   Inbox<BeaconSightingArray> sightings_{nh_, "/beacons/sightings"};
   Inbox<geometry_msgs::PoseWithCovarianceStamped> fixes_{nh_, "/beacons/fix"};
   Diagnostics diagnostics_{nh_};
-  ros::Publisher distrusted_out_ = nh_.advertise<std_msgs::UInt32MultiArray>("/beacons/distrusted", 10);
+  ros::Publisher distrusted_out_ = nh_.advertise<DistrustedBeaconArray>("/beacons/distrusted", 10);
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
 };
 
@@ -96,8 +96,8 @@ TEST_F(PoseSolving, FixesLieAtTheTruthAndBadInputIsCounted) {
   EXPECT_EQ(fixes_.size(), before);
 
   // Beacons that the filter distrusts make no fix.
-  std_msgs::UInt32MultiArray distrusted;
-  distrusted.data = {11, 12, 13, 14};
+  DistrustedBeaconArray distrusted;
+  for (const std::uint32_t id : {11, 12, 13, 14}) distrusted.beacons.emplace_back().beacon_id = id;
   distrusted_out_.publish(distrusted);
   const auto refused = [&] { return diagnostics_.count(kNode, "no fix: " + std::string(name(NoFix::kTooFewBeacons))); };
   const long refused_before = refused();
@@ -106,7 +106,7 @@ TEST_F(PoseSolving, FixesLieAtTheTruthAndBadInputIsCounted) {
     return refused() > refused_before;
   }));
   const std::size_t without = fixes_.size();
-  distrusted_out_.publish(std_msgs::UInt32MultiArray());
+  distrusted_out_.publish(DistrustedBeaconArray());
   EXPECT_TRUE(wait_for([&] {
     sightings_out_.publish(good);
     return fixes_.size() > without;

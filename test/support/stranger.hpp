@@ -17,7 +17,7 @@ enum class Trick {
   kOutshine,   ///< the same, so brightly that the photodiodes tell but one sender
   kDelay,      ///< the same as kRelay a frame's length later
   kYesterday,  ///< sends what he recorded the day before, until the first true frame is heard and on
-  kForge,      ///< sends frames of his own, unsigned or with a tag that he made up, with other coordinates
+  kForge,      ///< sends each frame first with other coordinates, unsigned or with a tag that he made up
   kJam,        ///< true frames are heard as noise
   kEverything
 };
@@ -61,7 +61,7 @@ class Stranger {
   }
   /// Signed by the site's own beacons, when one of them hung elsewhere.
   void yesterday(const RawIrFrame& now, std::vector<RawIrFrame>& out) const {
-    const auto said = IrFrameDecoder(site_.link, static_cast<int>(site_.tone_table_hz.size())).decode(now);
+    const auto said = decoder().decode(now);
     if (!said) return;
     Announcement then = *said;
     then.superframe -= 108'000;
@@ -76,13 +76,10 @@ class Stranger {
     out.insert(out.begin(), old);
   }
   void forge(const RawIrFrame& now, std::vector<RawIrFrame>& out) const {
-    const Beacon& beacon = site_.beacons.front();
-    Announcement lie;
-    lie.beacon = beacon.id;
-    lie.slot = static_cast<std::uint8_t>(beacon.slot);
-    lie.superframe = 2000;
-    lie.position_map = beacon.position_map + Eigen::Vector3d(2, 1, 0);
-    lie.tones = beacon.tones;
+    const auto said = decoder().decode(now);
+    if (!said) return;
+    Announcement lie = *said;
+    lie.position_map += Eigen::Vector3d(2, 1, 0);
     Link unsigned_link = site_.link, other_key = site_.link;
     unsigned_link.key.reset();
     other_key.key = std::array<std::uint8_t, 16>{1, 2, 3};
@@ -92,6 +89,8 @@ class Stranger {
       out.insert(out.begin(), frame);
     }
   }
+
+  IrFrameDecoder decoder() const { return {site_.link, static_cast<int>(site_.tone_table_hz.size())}; }
 
   Trick trick_;
   Site site_;

@@ -34,22 +34,25 @@ class BeaconWatch {
   bool add(Stamp stamp, const std::vector<BeaconCheck>& checks, const std::set<BeaconId>& astray = {});
   bool due(Stamp stamp) const;
 
-  const std::set<BeaconId>& distrusted() const { return distrusted_; }
+  /// Since when.
+  const std::map<BeaconId, Stamp>& distrusted() const { return distrusted_; }
   std::vector<Beacon> trusted(const std::vector<Beacon>& beacons) const;
   /// What was distrusted before this watch began.
-  void distrust(const std::set<BeaconId>& ids) { distrusted_.insert(ids.begin(), ids.end()); }
-  /// Whether it was distrusted.
-  bool confirm(BeaconId id);
+  void distrust(const std::map<BeaconId, Stamp>& since) { distrusted_.insert(since.begin(), since.end()); }
+  /// A word that was given before the beacon was distrusted changes nothing.
+  /// @param stamp when it was confirmed
+  /// @return whether it was distrusted and is no longer
+  bool confirm(BeaconId id, Stamp stamp);
 
   /// Time went backwards.
   void reset_time() { last_.reset(); }
 
  private:
-  bool count(BeaconId id, double seconds);
+  bool count(BeaconId id, double seconds, Stamp stamp);
 
   std::optional<Stamp> last_;
   std::map<BeaconId, double> disagreed_s_;
-  std::set<BeaconId> distrusted_;
+  std::map<BeaconId, Stamp> distrusted_;
 };
 
 }  // namespace lodestar

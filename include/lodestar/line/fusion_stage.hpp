@@ -34,14 +34,15 @@ class FusionStage {
   bool add_sightings(const Sightings& sightings);
   void add_fix(const Fix& fix);
 
-  /// Beacons that disagree with the rest for long: left out until somebody confirms them.
-  const std::set<BeaconId>& distrusted() const { return watch_.distrusted(); }
+  /// Beacons that disagree with the rest for long, and since when: left out until somebody confirms them.
+  const std::map<BeaconId, Stamp>& distrusted() const { return watch_.distrusted(); }
   /// All others of those set.
   const std::vector<Beacon>& trusted() const { return trusted_; }
   /// Those of an earlier run.
-  void distrust(const std::set<BeaconId>& ids);
-  /// Whether it was distrusted.
-  bool confirm(BeaconId id);
+  void distrust(const std::map<BeaconId, Stamp>& since);
+  /// @param stamp when it was confirmed
+  /// @return whether it was distrusted before that
+  bool confirm(BeaconId id, Stamp stamp);
 
   const PoseFilter& filter() const { return filter_; }
   const PlaceHypotheses& places() const { return places_; }

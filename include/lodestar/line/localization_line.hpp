@@ -44,7 +44,8 @@ class LocalizationLine {
   Result<Outcome, FrameDrop> process(const Image& image);
 
   /// Somebody has looked after a beacon that was left out: what it last said is right. False: it was never heard.
-  bool confirm(BeaconId id);
+  /// @param stamp when he did; what is found out later leaves the beacon out again
+  bool confirm(BeaconId id, Stamp stamp);
 
   void reset();
 

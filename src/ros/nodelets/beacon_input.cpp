@@ -1,9 +1,9 @@
 #include "lodestar/ros/nodelets/beacon_input.hpp"
 
-#include <std_msgs/UInt32MultiArray.h>
-
 #include <algorithm>
 
+#include "lodestar/BeaconConfirmation.h"
+#include "lodestar/DistrustedBeaconArray.h"
 #include "lodestar/ros/convert/announcement.hpp"
 
 namespace lodestar {
@@ -22,9 +22,11 @@ BeaconInput::BeaconInput(ros::NodeHandle& nh, const Site& site, Health& health,
   };
   announcements_ = subscribe("beacons/announcements", Word::kAnnouncement);
   conflicts_ = subscribe("beacons/conflicts", Word::kConflict);
-  confirmed_ = subscribe("beacons/confirmed", Word::kConfirmed);
-  distrusted_input_ = nh.subscribe<std_msgs::UInt32MultiArray>("beacons/distrusted", 10, [this](const auto& message) {
-    distrusted_ = {message->data.begin(), message->data.end()};
+  confirmed_ = nh.subscribe<BeaconConfirmation>(
+      "beacons/confirmed", 200, [this](const auto& message) { take(message->announcement, Word::kConfirmed); });
+  distrusted_input_ = nh.subscribe<DistrustedBeaconArray>("beacons/distrusted", 10, [this](const auto& message) {
+    distrusted_.clear();
+    for (const DistrustedBeacon& beacon : message->beacons) distrusted_.insert(beacon.beacon_id);
     tell();
   });
   revision_ = table_.revision();

@@ -1,6 +1,5 @@
 #include "lodestar/ros/nodelets/confirmations.hpp"
 
-#include <std_msgs/UInt32MultiArray.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -9,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/ros/convert/announcement.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
 
 namespace lodestar {
 namespace {
@@ -42,20 +41,28 @@ ToneSet tones_in(const YAML::Node& node) {
 Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory)
     : site_(site), file_(std::move(memory)) {
   const auto tell = [this](const ros::SingleSubscriberPublisher& newcomer) {
-    for (const auto& [id, announcement] : confirmed_)
-      newcomer.publish(announcement_message(announcement, site_.frame_id));
+    for (const auto& [id, confirmation] : confirmed_) newcomer.publish(message(confirmation));
   };
-  publisher_ = nh.advertise<BeaconAnnouncement>("beacons/confirmed", 200, tell);
-  distrusted_input_ = nh.subscribe<std_msgs::UInt32MultiArray>("beacons/distrusted", 10, [this](const auto& message) {
-    forget_new({message->data.begin(), message->data.end()});
-  });
+  publisher_ = nh.advertise<BeaconConfirmation>("beacons/confirmed", 200, tell);
+  distrusted_input_ = nh.subscribe("beacons/distrusted", 10, &Confirmations::take_distrusted, this);
 }
 
-/// Who stood there before may have been confirmed since, while the filter did not run.
-void Confirmations::forget_new(const std::set<std::uint32_t>& distrusted) {
-  for (const std::uint32_t id : distrusted)
-    if (distrusted_.count(id) == 0) forget(BeaconId{id});
-  distrusted_ = distrusted;
+BeaconConfirmation Confirmations::message(const Confirmation& confirmation) const {
+  BeaconConfirmation message;
+  message.announcement = announcement_message(confirmation.announcement, site_.frame_id);
+  message.header.frame_id = site_.frame_id;
+  message.header.stamp = ros_time(confirmation.stamp);
+  return message;
+}
+
+void Confirmations::take_distrusted(const DistrustedBeaconArray& distrusted) {
+  distrusted_.clear();
+  for (const DistrustedBeacon& beacon : distrusted.beacons) {
+    const BeaconId id{beacon.beacon_id};
+    const Stamp since = distrusted_[id] = stamp_from(beacon.since);
+    const auto confirmed = confirmed_.find(id);
+    if (confirmed != confirmed_.end() && confirmed->second.stamp <= since) forget(id);
+  }
 }
 
 const Beacon* Confirmations::in_site(BeaconId id) const {
@@ -65,10 +72,12 @@ const Beacon* Confirmations::in_site(BeaconId id) const {
 }
 
 /// Those that still stand: the site file has not been brought up to date since.
-std::map<BeaconId, Announcement> Confirmations::read(const std::string& text) const {
-  std::map<BeaconId, Announcement> out;
+std::map<BeaconId, Confirmations::Confirmation> Confirmations::read(const std::string& text) const {
+  std::map<BeaconId, Confirmation> out;
   for (const YAML::Node& entry : YAML::Load(text)) {
-    Announcement a;
+    Confirmation confirmation;
+    confirmation.stamp = Stamp(Duration(entry["confirmed_ns"].as<std::int64_t>()));
+    Announcement& a = confirmation.announcement;
     a.beacon = BeaconId{entry["id"].as<std::uint32_t>()};
     a.position_map = position_in(entry["position_m"]);
     a.tones = tones_in(entry["tones"]);
@@ -77,7 +86,7 @@ std::map<BeaconId, Announcement> Confirmations::read(const std::string& text) co
     a.stamp = Stamp(Duration(entry["stamp_ns"].as<std::int64_t>()));
     const Eigen::Vector3d site_position = position_in(entry["site_position_m"]);
     const Beacon* beacon = in_site(a.beacon);
-    if (beacon != nullptr && (beacon->position_map - site_position).norm() < kSamePlace_m) out[a.beacon] = a;
+    if (beacon != nullptr && (beacon->position_map - site_position).norm() < kSamePlace_m) out[a.beacon] = confirmation;
   }
   return out;
 }
@@ -88,13 +97,17 @@ void Confirmations::load_into(BeaconTable& table) {
     return true;
   };
   file_.load(understand, "confirmed beacons have to be confirmed anew");
-  for (const auto& [id, announcement] : confirmed_) table.confirm(announcement);
+  for (const auto& [id, confirmation] : confirmed_) table.confirm(confirmation.announcement);
 }
 
-void Confirmations::add(const Announcement& announcement) {
-  publisher_.publish(announcement_message(announcement, site_.frame_id));
+// It answers what is known to be distrusted, also where the clock was set back since.
+void Confirmations::add(const Announcement& announcement, Stamp now) {
+  const auto distrusted = distrusted_.find(announcement.beacon);
+  if (distrusted != distrusted_.end()) now = std::max(now, distrusted->second + Duration(1));
+  const Confirmation confirmation{announcement, now};
+  publisher_.publish(message(confirmation));
   if (in_site(announcement.beacon) == nullptr) return;
-  confirmed_[announcement.beacon] = announcement;
+  confirmed_[announcement.beacon] = confirmation;
   save();
 }
 
@@ -107,13 +120,15 @@ void Confirmations::save() {
   std::ostringstream text;
   text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n"
        << std::setprecision(12);
-  for (const auto& [id, a] : confirmed_) {
+  for (const auto& [id, confirmation] : confirmed_) {
+    const Announcement& a = confirmation.announcement;
     text << "- {id: " << id << ", position_m: ";
     write(text, a.position_map);
     text << ", tones: [";
     for (const int tone : a.tones.indices()) text << (tone == a.tones.indices().front() ? "" : ", ") << tone;
     text << "], slot: " << static_cast<int>(a.slot) << ", surveyed: " << std::boolalpha << a.surveyed
-         << ", stamp_ns: " << a.stamp.time_since_epoch().count() << ", site_position_m: ";
+         << ", stamp_ns: " << a.stamp.time_since_epoch().count()
+         << ", confirmed_ns: " << confirmation.stamp.time_since_epoch().count() << ", site_position_m: ";
     write(text, in_site(id)->position_map);
     text << "}\n";
   }

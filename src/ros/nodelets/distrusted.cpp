@@ -1,48 +1,57 @@
 #include "lodestar/ros/nodelets/distrusted.hpp"
 
-#include <std_msgs/UInt32MultiArray.h>
 #include <yaml-cpp/yaml.h>
 
 #include <sstream>
 
+#include "lodestar/DistrustedBeaconArray.h"
+#include "lodestar/ros/convert/stamp.hpp"
+
 namespace lodestar {
 namespace {
 
-std::set<BeaconId> ids_in(const YAML::Node& list) {
-  std::set<BeaconId> ids;
-  for (const YAML::Node& id : list) ids.insert(BeaconId{id.as<std::uint32_t>()});
-  return ids;
+std::map<BeaconId, Stamp> since_in(const YAML::Node& list) {
+  std::map<BeaconId, Stamp> since;
+  for (const YAML::Node& entry : list)
+    since[BeaconId{entry["id"].as<std::uint32_t>()}] = Stamp(Duration(entry["since_ns"].as<std::int64_t>()));
+  return since;
 }
 
 }  // namespace
 
 Distrusted::Distrusted(ros::NodeHandle& nh, const std::string& memory)
-    : file_(memory), publisher_(nh.advertise<std_msgs::UInt32MultiArray>("beacons/distrusted", 1, true)) {}
+    : file_(memory), publisher_(nh.advertise<DistrustedBeaconArray>("beacons/distrusted", 1, true)) {}
 
-std::set<BeaconId> Distrusted::load() {
-  std::set<BeaconId> ids;
+std::map<BeaconId, Stamp> Distrusted::load() {
+  std::map<BeaconId, Stamp> since;
   const auto understand = [&](const std::string& text) {
     const YAML::Node list = YAML::Load(text);
-    ids = ids_in(list);
+    since = since_in(list);
     return list.IsSequence();
   };
   file_.load(understand, "beacons that were left out are in use again");
-  tell(ids);
-  return ids;
+  tell(since);
+  return since;
 }
 
-void Distrusted::set(const std::set<BeaconId>& ids) {
+void Distrusted::set(const std::map<BeaconId, Stamp>& since) {
   std::ostringstream text;
   text << "# Beacons that are left out until somebody confirms them.\n[";
-  for (const BeaconId id : ids) text << (id == *ids.begin() ? "" : ", ") << id;
+  for (const auto& [id, stamp] : since)
+    text << (id == since.begin()->first ? "" : ",\n ") << "{id: " << id
+         << ", since_ns: " << stamp.time_since_epoch().count() << '}';
   text << "]\n";
   file_.save(text.str());
-  tell(ids);
+  tell(since);
 }
 
-void Distrusted::tell(const std::set<BeaconId>& ids) {
-  std_msgs::UInt32MultiArray message;
-  for (const BeaconId id : ids) message.data.push_back(id.value);
+void Distrusted::tell(const std::map<BeaconId, Stamp>& since) {
+  DistrustedBeaconArray message;
+  for (const auto& [id, stamp] : since) {
+    DistrustedBeacon& beacon = message.beacons.emplace_back();
+    beacon.beacon_id = id.value;
+    beacon.since = ros_time(stamp);
+  }
   publisher_.publish(message);
 }
 

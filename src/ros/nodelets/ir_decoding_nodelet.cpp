@@ -125,7 +125,7 @@ bool IrDecodingNodelet::confirm_beacon(ConfirmBeacon::Request& request, ConfirmB
     return true;
   }
   const BeaconTable::Entry& entry = table_->entries().at(id);
-  confirmations_->add(*entry.last);
+  confirmations_->add(*entry.last, stamp_from(ros::Time::now()));
   std::ostringstream message;
   message << "in force at " << entry.beacon.position_map.transpose() << " m; bring the site file up to date";
   response.message = message.str();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "lodestar/BeaconConfirmation.h"
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/line/localization_line.hpp"
 #include "lodestar/ros/convert/odometry.hpp"
@@ -66,8 +67,9 @@ void PoseFusionNodelet::onInit() {
   sightings_ = nh.subscribe("beacons/sightings", 10, &PoseFusionNodelet::take_sightings, this);
   fix_ = nh.subscribe("beacons/fix", 10, &PoseFusionNodelet::take_fix, this);
   confirmed_ =
-      nh.subscribe<BeaconAnnouncement>("beacons/confirmed", 200, [this](const BeaconAnnouncementConstPtr& message) {
-        if (stage_->confirm(BeaconId{message->beacon_id})) distrusted_->set(stage_->distrusted());
+      nh.subscribe<BeaconConfirmation>("beacons/confirmed", 200, [this](const BeaconConfirmationConstPtr& message) {
+        const BeaconId id{message->announcement.beacon_id};
+        if (stage_->confirm(id, stamp_from(message->header.stamp))) distrusted_->set(stage_->distrusted());
       });
 }
 
@@ -180,7 +182,9 @@ void PoseFusionNodelet::report_liars(Health::Status& status) {
   status.add("beacons that lie", liars.empty() ? "none" : listed(liars));
   if (!liars.empty()) status.mergeSummary(DiagnosticStatus::WARN, "beacons that lie: " + listed(liars));
   if (!distrusted_->fault().empty()) status.mergeSummary(DiagnosticStatus::ERROR, distrusted_->fault());
-  const std::string left_out = listed(stage_->distrusted());
+  std::set<BeaconId> distrusted;
+  for (const auto& [id, since] : stage_->distrusted()) distrusted.insert(id);
+  const std::string left_out = listed(distrusted);
   status.add("left out until confirmed", left_out);
   if (!left_out.empty()) status.mergeSummary(DiagnosticStatus::WARN, "left out until confirmed: beacons " + left_out);
 }

@@ -33,6 +33,7 @@ class MovedBeacon : public testing::Test {
       if (auto* frame = std::get_if<RawIrFrame>(&heard.data); frame && !beacon_admits_it) say_as_told(*frame);
       const auto outcome = sim::feed(*line_, heard);
       if (!outcome || !outcome->estimate) continue;
+      now_ = outcome->sightings.stamp;
       check(*outcome);
       if (stop()) return true;
     }
@@ -52,6 +53,7 @@ class MovedBeacon : public testing::Test {
   double worst_m() const { return worst_m_; }
 
   std::unique_ptr<LocalizationLine> line_;
+  Stamp now_;
 
  private:
   void say_as_told(RawIrFrame& frame) const {
@@ -83,7 +85,7 @@ TEST_F(MovedBeacon, that_says_so_itself_is_left_out_until_it_is_confirmed) {
   EXPECT_TRUE(line_->beacon_table().entries().at(kMoved).conflict);
   EXPECT_LT(worst_m(), 0.1);
 
-  ASSERT_TRUE(line_->confirm(kMoved));
+  ASSERT_TRUE(line_->confirm(kMoved, now_));
   EXPECT_TRUE(drive(true, [&] { return used(); }));
   EXPECT_LT(worst_m(), 0.1);
 }
@@ -97,7 +99,7 @@ TEST_F(MovedBeacon, that_does_not_know_it_is_found_out_by_the_others) {
 
   // It learns where it hangs, and somebody says that this is right.
   ASSERT_TRUE(drive(true, [&] { return line_->beacon_table().entries().at(kMoved).conflict; }));
-  ASSERT_TRUE(line_->confirm(kMoved));
+  ASSERT_TRUE(line_->confirm(kMoved, now_));
   EXPECT_TRUE(drive(true, [&] { return used(); }));
   EXPECT_LT(worst_m(), 0.1);
 }

@@ -5,6 +5,8 @@
 namespace lodestar {
 namespace {
 
+using Since = std::map<BeaconId, Stamp>;
+
 BeaconCheck check(std::uint32_t id, bool excluded) {
   BeaconCheck out;
   out.beacon = BeaconId{id};
@@ -12,12 +14,14 @@ BeaconCheck check(std::uint32_t id, bool excluded) {
   return out;
 }
 
+Stamp at(int second) { return Stamp(std::chrono::seconds(1000 + second)); }
+
 /// So many seconds in which beacon 1 disagrees with beacons 2 to `others` + 1.
 void see(BeaconWatch& watch, int from_s, int until_s, std::uint32_t others, bool disagrees = true) {
   for (int second = from_s; second < until_s; ++second) {
     std::vector<BeaconCheck> checks{check(1, disagrees)};
     for (std::uint32_t id = 2; id < 2 + others; ++id) checks.push_back(check(id, false));
-    watch.add(Stamp(std::chrono::seconds(1000 + second)), checks);
+    watch.add(at(second), checks);
   }
 }
 
@@ -26,7 +30,7 @@ TEST(BeaconWatch, a_minute_of_disagreement_leaves_a_beacon_out_until_it_is_confi
   see(watch, 0, 60, 3);
   EXPECT_TRUE(watch.distrusted().empty());
   see(watch, 60, 62, 3);
-  EXPECT_EQ(watch.distrusted(), std::set<BeaconId>{BeaconId{1}});
+  EXPECT_EQ(watch.distrusted(), (Since{{BeaconId{1}, at(60)}}));
   see(watch, 62, 300, 3, false);
   EXPECT_EQ(watch.distrusted().size(), 1u) << "it agrees again: who knows why";
 
@@ -34,7 +38,7 @@ TEST(BeaconWatch, a_minute_of_disagreement_leaves_a_beacon_out_until_it_is_confi
   first.id = BeaconId{1};
   second.id = BeaconId{2};
   EXPECT_EQ(watch.trusted({first, second}).size(), 1u);
-  watch.confirm(BeaconId{1});
+  EXPECT_TRUE(watch.confirm(BeaconId{1}, at(300)));
   EXPECT_EQ(watch.trusted({first, second}).size(), 2u);
   see(watch, 300, 350, 3);
   EXPECT_TRUE(watch.distrusted().empty());
@@ -42,11 +46,14 @@ TEST(BeaconWatch, a_minute_of_disagreement_leaves_a_beacon_out_until_it_is_confi
 
 TEST(BeaconWatch, what_was_distrusted_before_stays_so_until_it_is_confirmed) {
   BeaconWatch watch;
-  watch.distrust({BeaconId{1}});
+  watch.distrust({{BeaconId{1}, at(60)}});
   see(watch, 0, 300, 3, false);
-  EXPECT_EQ(watch.distrusted(), std::set<BeaconId>{BeaconId{1}});
-  watch.confirm(BeaconId{1});
+  EXPECT_EQ(watch.distrusted(), (Since{{BeaconId{1}, at(60)}}));
+  EXPECT_FALSE(watch.confirm(BeaconId{1}, at(60))) << "told again, or late";
+  EXPECT_EQ(watch.distrusted().size(), 1u);
+  EXPECT_TRUE(watch.confirm(BeaconId{1}, at(61)));
   EXPECT_TRUE(watch.distrusted().empty());
+  EXPECT_FALSE(watch.confirm(BeaconId{1}, at(62))) << "nothing to confirm";
 }
 
 TEST(BeaconWatch, one_against_one_says_nothing) {
@@ -123,9 +130,8 @@ TEST_F(Astray, in_doubt_nobody) {
 TEST(BeaconWatch, a_minute_astray_counts_whatever_the_filter_thinks) {
   BeaconWatch watch;
   for (int second = 0; second < 62; ++second)
-    watch.add(Stamp(std::chrono::seconds(1000 + second)), {check(1, false), check(2, false), check(3, false)},
-              {BeaconId{1}});
-  EXPECT_EQ(watch.distrusted(), std::set<BeaconId>{BeaconId{1}});
+    watch.add(at(second), {check(1, false), check(2, false), check(3, false)}, {BeaconId{1}});
+  EXPECT_EQ(watch.distrusted(), (Since{{BeaconId{1}, at(60)}}));
 }
 
 }  // namespace

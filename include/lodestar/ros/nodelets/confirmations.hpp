@@ -3,9 +3,10 @@
 #include <ros/ros.h>
 
 #include <map>
-#include <set>
 #include <string>
 
+#include "lodestar/BeaconConfirmation.h"
+#include "lodestar/DistrustedBeaconArray.h"
 #include "lodestar/base/measurement/announcement.hpp"
 #include "lodestar/base/site/site.hpp"
 #include "lodestar/ros/nodelets/memory_file.hpp"
@@ -16,14 +17,15 @@ namespace lodestar {
 /// Beacons of the site file that somebody has confirmed where they say that they hang, and the topic that tells it,
 /// `beacons/confirmed`: each node that starts later is told then. Kept in a file, they outlive this node too, each
 /// until the site file is changed for it. Whom the filter finds out afterwards, by `beacons/distrusted`, is no longer
-/// one of them.
+/// one of them: which came first is told by the time of each, whatever starts when.
 class Confirmations {
  public:
   /// @param memory path of that file; empty: none
   Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory);
 
   void load_into(BeaconTable& table);
-  void add(const Announcement& announcement);
+  /// Somebody confirms it now.
+  void add(const Announcement& announcement, Stamp now);
   /// The beacon contradicts again what was confirmed.
   void forget(BeaconId id);
 
@@ -31,15 +33,20 @@ class Confirmations {
   const std::string& fault() const { return file_.fault(); }
 
  private:
+  struct Confirmation {
+    Announcement announcement;
+    Stamp stamp;
+  };
   const Beacon* in_site(BeaconId id) const;
-  void forget_new(const std::set<std::uint32_t>& distrusted);
-  std::map<BeaconId, Announcement> read(const std::string& text) const;
+  BeaconConfirmation message(const Confirmation& confirmation) const;
+  void take_distrusted(const DistrustedBeaconArray& distrusted);
+  std::map<BeaconId, Confirmation> read(const std::string& text) const;
   void save();
 
   const Site& site_;
   MemoryFile file_;
-  std::map<BeaconId, Announcement> confirmed_;
-  std::set<std::uint32_t> distrusted_;  ///< those of the last message
+  std::map<BeaconId, Confirmation> confirmed_;
+  std::map<BeaconId, Stamp> distrusted_;  ///< since when
   ros::Publisher publisher_;
   ros::Subscriber distrusted_input_;
 };
