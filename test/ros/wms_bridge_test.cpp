@@ -23,7 +23,9 @@
 #include "lodestar/ros/nodelets/wms_params.hpp"
 #include "lodestar/wms/bridge.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
+#include "lodestar/wms/outbox.hpp"
 #include "lodestar/wms/site_client.hpp"
+#include "lodestar/wms/site_messages.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/waiting.hpp"
 #include "support/broker.hpp"
@@ -318,6 +320,41 @@ TEST_F(WmsBridge, AGapIsAskedForUntilItIsAnsweredAndNoLonger) {
   EXPECT_TRUE(counted("recorded", 7));
   EXPECT_EQ(diagnostics_.count(kNode, std::string("dropped: ") + name(MessageDrop::kFrame)), 1);
   EXPECT_EQ(diagnostics_.count(kNode, "missed"), 0);
+}
+
+TEST_F(WmsBridge, SaysWhatIsWrongWithItsStore) {
+  const auto says = [&](const std::string& words) {
+    return until([&] {
+      return diagnostics_.message(kNode).find(words) != std::string::npos &&
+             diagnostics_.level(kNode) == diagnostic_msgs::DiagnosticStatus::ERROR;
+    });
+  };
+  std::ofstream(folder_ / "wms.db") << std::string(10000, 'x');
+  ros::param::set("/wms_bridge/store_max_mib", 1);
+  Node node(folder_ / "node.log");
+  EXPECT_TRUE(says("a damaged store was set aside: " + folder_ / "wms.db.corrupt-1")) << node.output();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "wms.db.corrupt-1"));
+
+  const std::string stream = diagnostics_.value(kNode, "stream");
+  EXPECT_TRUE(until([&] {
+    vda_->publish({site_topics("lodestar", "truck7").ack, message_text(Acknowledgement{stream, 7}), 1, false});
+    return diagnostics_.count(kNode, std::string("dropped: ") + name(AckDrop::kAhead)) > 0;
+  }));
+  EXPECT_TRUE(says("the site has events that this store never had"));
+
+  ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0; }));
+  broker_->kill();
+  constexpr int kTooMany = 150;
+  for (int n = 1; n <= kTooMany; ++n) {
+    PalletChange large = change(n);
+    large.pallet.type = std::string(10000, 'x');
+    events_.publish(pallet_event_message(large, "map"));
+  }
+  EXPECT_TRUE(says("the store takes no events: they wait in memory"));
+  EXPECT_TRUE(counted("in memory", 1));
+  broker_->start();
+  expect_arrived(kTooMany);
+  EXPECT_TRUE(until([&] { return diagnostics_.message(kNode).find("takes no events") == std::string::npos; }));
 }
 
 TEST_F(WmsBridge, TellsTheTrucksState) {
