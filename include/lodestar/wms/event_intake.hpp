@@ -35,7 +35,10 @@ class EventIntake {
   /// The tracker says that `newest` is its newest event; 0: it has none.
   void told(std::uint64_t newest, Instant now);
   /// The tracker went away: the one that comes may count anew, however far it has come.
-  void lose_sight() { same_count_ = false; }
+  void lose_sight() {
+    same_count_ = false;
+    away_ = true;
+  }
   /// What was taken ends with this event, whatever was handed on since: in an earlier life, or another store.
   void resume_after(HeardEvent last);
 
@@ -71,6 +74,7 @@ class EventIntake {
   Instant not_before_{}, told_at_{};
   std::uint64_t told_ = 0;
   bool told_is_asked_for_ = false;  ///< what the tracker did not answer then, it does not have
+  bool away_ = true;                ///< no word of it since
   bool same_count_ = false;         ///< the tracker's numbers are known to be those of last_
   bool ask_for_all_ = false;
   std::deque<Event> waiting_;
@@ -89,6 +93,10 @@ void EventIntake<Event>::hear(Event event) {
 
 template <class Event>
 void EventIntake<Event>::told(std::uint64_t newest, Instant now) {
+  if (std::exchange(away_, false)) {
+    not_before_ = now;
+    wait_ = back_off_.first;
+  }
   if (newest == told_) return;
   told_ = newest;
   told_at_ = now;

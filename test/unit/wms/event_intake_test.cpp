@@ -181,6 +181,18 @@ TEST_F(EventIntakeTest, ATrackerThatIsAwayIsAskedMoreAndMoreSeldom) {
   EXPECT_EQ(taken(), (Numbers{4, 5}));
 }
 
+TEST_F(EventIntakeTest, ATrackerThatIsBackIsAskedAtOnce) {
+  begin();
+  answers_ = false;
+  intake_.lose_sight();
+  ask_for(17);
+  answers_ = true;
+  EXPECT_EQ(ask_for(5), 0);
+  tells(5);
+  EXPECT_EQ(ask(), 1);
+  EXPECT_EQ(taken(), (Numbers{4, 5}));
+}
+
 TEST_F(EventIntakeTest, ATrackerIsAskedOnceASecondAtMost) {
   begin();
   int asked = 0;
