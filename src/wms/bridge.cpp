@@ -31,7 +31,6 @@ void Bridge::open(const std::string& damage) {
   store_.reset();
   OpenedStore opened = open_store(params_.store, random_uuid(), damage);
   store_ = std::move(opened.store);
-  last_heard_ = store_->last_heard();
   outbox_ = Outbox(params_.outbox, store_->stream(), store_->acknowledged(), store_->last());
   if (opened.set_aside.empty()) return;
   set_aside_ = opened.set_aside;
@@ -56,7 +55,6 @@ void Bridge::with_store(const ClockReading& now, Job job) {
 }
 
 void Bridge::take(PalletChange change, const ClockReading& now) {
-  last_heard_ = {change.sequence, change.stamp, change.pallet.id};
   if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
   if (!change.pallet.sscc.empty() && !is_sscc(change.pallet.sscc)) {
     drops_.add(BridgeDrop::kLabel);
@@ -75,7 +73,6 @@ void Bridge::record_waiting() {
 /// @return false: there is no room
 bool Bridge::record(const Waiting& waiting) {
   const PalletChange& change = waiting.change;
-  const std::uint64_t before = store_->last_heard().sequence;
   switch (store_->record(change, epcis_draft(params_.epcis, change), waiting.clock)) {
     case Recorded::kFull:
       return false;
@@ -85,17 +82,8 @@ bool Bridge::record(const Waiting& waiting) {
     case Recorded::kNew:
       break;
   }
-  count_heard(before, change.sequence);
   outbox_.recorded(store_->last());
   return true;
-}
-
-void Bridge::count_heard(std::uint64_t before, std::uint64_t sequence) {
-  if (sequence > before) {
-    heard_.missed += sequence - before - 1;
-  } else {
-    ++heard_.restarts;
-  }
 }
 
 void Bridge::watch_clock(const ClockReading& now) {

@@ -238,7 +238,7 @@ Recorded EventStore::record(const PalletChange& change, const std::string& draft
   if (full_) return Recorded::kFull;
   if (result == Recorded::kKnown) return result;
   ++last_;
-  last_heard_ = {change.sequence, change.stamp, change.pallet.id};
+  last_heard_ = heard_event(change);
   return result;
 }
 

@@ -70,7 +70,17 @@ class MqttLink::Connection : private mqtt::iaction_listener {
   mqtt::async_client client_;  // last: its threads end before what they write to goes
 };
 
-MqttLink::MqttLink(const MqttParams& params) : params_(params) {}
+/// A client that never connects. With its last client paho stops its threads, for which it waits 0.1 s to 10 s:
+/// at the end that does no harm, between two connections it would hold up everything.
+class MqttLink::Library {
+ public:
+  explicit Library(const MqttParams& params) : client_("tcp://localhost", params.client_id) {}
+
+ private:
+  mqtt::async_client client_;
+};
+
+MqttLink::MqttLink(const MqttParams& params) : params_(params), library_(std::make_unique<Library>(params)) {}
 
 MqttLink::~MqttLink() = default;
 

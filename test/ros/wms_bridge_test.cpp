@@ -14,6 +14,7 @@
 #include "lodestar/LoadState.h"
 #include "lodestar/PalletArray.h"
 #include "lodestar/PalletEvent.h"
+#include "lodestar/PalletEventsAfter.h"
 #include "lodestar/PoseIntegrity.h"
 #include "lodestar/ros/convert/message_drop.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
@@ -22,7 +23,9 @@
 #include "lodestar/ros/nodelets/wms_params.hpp"
 #include "lodestar/wms/bridge.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
+#include "lodestar/wms/outbox.hpp"
 #include "lodestar/wms/site_client.hpp"
+#include "lodestar/wms/site_messages.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/waiting.hpp"
 #include "support/broker.hpp"
@@ -177,13 +180,14 @@ TEST_F(WmsBridge, EveryEventArrivesOnceWhateverDies) {
   events_.publish(wrong);
   EXPECT_TRUE(counted(std::string("dropped: ") + name(MessageDrop::kFrame), 1));
   publish(64, 64);
-  EXPECT_TRUE(counted("missed", 3));
+  EXPECT_TRUE(counted("missed", 2));
   EXPECT_TRUE(until([&] { return diagnostics_.message(kNode).find("not heard") != std::string::npos; }));
   wrong = pallet_event_message(change(65), "map");
   wrong.pallet.id = "'; DROP TABLE event; --";
   events_.publish(wrong);
   EXPECT_TRUE(counted(std::string("dropped: ") + name(BridgeDrop::kPalletId), 1));
   expect_arrived(61);
+  EXPECT_EQ(diagnostics_.count(kNode, "missed"), 2) << "what is of no use was heard";
   EXPECT_TRUE(WIFEXITED(node->end(SIGINT)));
   EXPECT_TRUE(until([&] { return vda_heard_["connection"].value("connectionState", "") == "OFFLINE"; }));
 }
@@ -275,6 +279,82 @@ TEST_F(WmsBridge, AnEventThatWasWrittenDownIsToldWhoeverDies) {
     bridge = std::make_unique<Node>(folder_ / "node.log");
     expect_arrived(arrived += 2 * moves);
   }
+}
+
+TEST_F(WmsBridge, AGapIsAskedForUntilItIsAnsweredAndNoLonger) {
+  int newest = 6, asked = 0;
+  bool answers = false;
+  using Request = PalletEventsAfter::Request;
+  using Response = PalletEventsAfter::Response;
+  const boost::function<bool(Request&, Response&)> after = [&](Request& request, Response& response) {
+    ++asked;
+    for (int n = static_cast<int>(request.sequence) + 1; n <= newest; ++n)
+      response.events.push_back(pallet_event_message(change(n), n == 7 ? "odom" : "map"));
+    return answers;
+  };
+  const auto tell_state = [&] {
+    PalletArray state;
+    state.header.frame_id = "map";
+    state.last_event = newest;
+    state_.publish(state);
+  };
+  ros::ServiceServer service = nh_.advertiseService("/pallets/events_after", after);
+  tell_state();
+  Node node(folder_ / "node.log");
+  ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0 && asked > 0; })) << node.output();
+  publish(6, 6);
+  EXPECT_TRUE(counted("waiting for earlier ones", 1));
+  EXPECT_TRUE(until([&] { return asked >= 2; })) << asked;
+  EXPECT_TRUE(arrived_.empty()) << "with a gap before it";
+  answers = true;
+  expect_arrived(6);
+
+  // The newest event is no use: it is counted and asked for once.
+  newest = 7;
+  tell_state();
+  EXPECT_TRUE(counted(std::string("dropped: ") + name(MessageDrop::kFrame), 1));
+  const int before = asked;
+  EXPECT_FALSE(until([&] { return asked > before; }, 2.5));
+  publish(8, 8);
+  EXPECT_TRUE(until([&] { return arrived_.size() == 7; }));
+  EXPECT_TRUE(counted("recorded", 7));
+  EXPECT_EQ(diagnostics_.count(kNode, std::string("dropped: ") + name(MessageDrop::kFrame)), 1);
+  EXPECT_EQ(diagnostics_.count(kNode, "missed"), 0);
+}
+
+TEST_F(WmsBridge, SaysWhatIsWrongWithItsStore) {
+  const auto says = [&](const std::string& words) {
+    return until([&] {
+      return diagnostics_.message(kNode).find(words) != std::string::npos &&
+             diagnostics_.level(kNode) == diagnostic_msgs::DiagnosticStatus::ERROR;
+    });
+  };
+  std::ofstream(folder_ / "wms.db") << std::string(10000, 'x');
+  ros::param::set("/wms_bridge/store_max_mib", 1);
+  Node node(folder_ / "node.log");
+  EXPECT_TRUE(says("a damaged store was set aside: " + folder_ / "wms.db.corrupt-1")) << node.output();
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "wms.db.corrupt-1"));
+
+  const std::string stream = diagnostics_.value(kNode, "stream");
+  EXPECT_TRUE(until([&] {
+    vda_->publish({site_topics("lodestar", "truck7").ack, message_text(Acknowledgement{stream, 7}), 1, false});
+    return diagnostics_.count(kNode, std::string("dropped: ") + name(AckDrop::kAhead)) > 0;
+  }));
+  EXPECT_TRUE(says("the site has events that this store never had"));
+
+  ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0; }));
+  broker_->kill();
+  constexpr int kTooMany = 150;
+  for (int n = 1; n <= kTooMany; ++n) {
+    PalletChange large = change(n);
+    large.pallet.type = std::string(10000, 'x');
+    events_.publish(pallet_event_message(large, "map"));
+  }
+  EXPECT_TRUE(says("the store takes no events: they wait in memory"));
+  EXPECT_TRUE(counted("in memory", 1));
+  broker_->start();
+  expect_arrived(kTooMany);
+  EXPECT_TRUE(until([&] { return diagnostics_.message(kNode).find("takes no events") == std::string::npos; }));
 }
 
 TEST_F(WmsBridge, TellsTheTrucksState) {

@@ -40,12 +40,6 @@ enum class BridgeDrop {
 };
 const char* name(BridgeDrop reason);
 
-/// What can be said of the tracker's numbers.
-struct HeardCounts {
-  std::uint64_t missed = 0;    ///< numbers that were jumped over, those before a new store's first too
-  std::uint64_t restarts = 0;  ///< the tracker began to count anew
-};
-
 /// From pallet changes to the site: records, hands over, acknowledges. Runs in one thread, reads no clock and never
 /// waits but for the disk; call poll() often (10 ms).
 class Bridge {
@@ -67,9 +61,6 @@ class Bridge {
   const Outbox& outbox() const { return outbox_; }
   std::size_t in_memory() const { return waiting_.size(); }  ///< heard, not recorded: the store has no room
   const DropCounts<BridgeDrop>& drops() const { return drops_; }
-  const HeardCounts& heard() const { return heard_; }
-  /// The event that was taken last, in this life or an earlier one.
-  const HeardEvent& last_heard() const { return last_heard_; }
   std::uint64_t clock_steps() const { return clock_steps_; }
   std::uint64_t store_faults() const { return store_faults_; }
   const std::string& store_fault() const { return store_fault_; }  ///< the last one; empty: none
@@ -86,7 +77,6 @@ class Bridge {
     WallClock clock;
   };
   bool record(const Waiting& waiting);
-  void count_heard(std::uint64_t before, std::uint64_t sequence);
   void send_due(const ClockReading& now);
   template <class Job>
   void with_store(const ClockReading& now, Job job);
@@ -102,8 +92,6 @@ class Bridge {
   std::deque<Waiting> waiting_;
   Instant tried_{};  ///< when they were last offered to the store
   DropCounts<BridgeDrop> drops_;
-  HeardCounts heard_;
-  HeardEvent last_heard_;
   std::uint64_t connections_ = 0, clock_steps_ = 0, store_faults_ = 0;
   std::string last_failure_, store_fault_, set_aside_;
 };

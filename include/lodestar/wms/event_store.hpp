@@ -11,6 +11,7 @@
 #include "lodestar/base/common/stamp.hpp"
 #include "lodestar/base/measurement/pallet.hpp"
 #include "lodestar/wms/clock.hpp"
+#include "lodestar/wms/heard_event.hpp"
 
 namespace lodestar {
 
@@ -32,17 +33,6 @@ enum class Recorded {
   kNew,    ///< durable
   kKnown,  ///< the same event was recorded before
   kFull,   ///< no room, nothing was changed
-};
-
-/// What tells an event from every other: the tracker's own number comes again when its count begins anew.
-struct HeardEvent {
-  std::uint64_t sequence = 0;  ///< 0: none
-  Stamp stamp;
-  std::string pallet;
-
-  bool is(const PalletChange& change) const {
-    return sequence == change.sequence && stamp == change.stamp && pallet == change.pallet.id;
-  }
 };
 
 /// What the queue hands over.

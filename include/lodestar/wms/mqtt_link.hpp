@@ -33,8 +33,10 @@ class MqttLink : public MessageLink {
 
  private:
   class Connection;
+  class Library;
 
   MqttParams params_;
+  std::unique_ptr<Library> library_;  ///< outlives each connection
   std::unique_ptr<Connection> connection_;
   std::vector<LinkEvent> failures_;  ///< of connections that never came about
 };

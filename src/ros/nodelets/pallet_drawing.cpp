@@ -3,10 +3,11 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "lodestar/ros/convert/pallet.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/convert/transform.hpp"
+#include "lodestar/ros/nodelets/pallet_labels.hpp"
 #include "marker_parts.hpp"
 
 namespace lodestar {
@@ -14,9 +15,6 @@ namespace {
 
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
-
-constexpr double kGoods_m = 0.75;  // drawn upon a pallet; how high they really are is not known
-constexpr double kPallet_m = 0.144;
 
 std_msgs::ColorRGBA color_of(PalletState state) {
   switch (state) {
@@ -27,19 +25,6 @@ std_msgs::ColorRGBA color_of(PalletState state) {
     default:
       return color(0.72, 0.55, 0.36);
   }
-}
-
-/// The end of the label where it was read, else the beginning of the id; then how long it has been so.
-std::string title(const Pallet& pallet, double age_s) {
-  char age[32];
-  if (age_s < 60) {
-    std::snprintf(age, sizeof(age), "%.0f s", age_s);
-  } else {
-    std::snprintf(age, sizeof(age), "%.0f min", age_s / 60);
-  }
-  const std::string name =
-      pallet.sscc.empty() ? pallet.id.substr(0, 6) : "..." + pallet.sscc.substr(pallet.sscc.size() - 4);
-  return name + (pallet.state == PalletState::kUncertain ? " ?" : "") + "\n" + age;
 }
 
 void add_zone(const std_msgs::Header& header, const Zone& zone, MarkerArray& out) {
@@ -61,8 +46,7 @@ void add_zone(const std_msgs::Header& header, const Zone& zone, MarkerArray& out
   out.markers.insert(out.markers.end(), {border, name});
 }
 
-void add_pallet(const std_msgs::Header& header, const Pallet& pallet, const Eigen::Vector2d& size_m, double age_s,
-                MarkerArray& out) {
+void add_pallet(const std_msgs::Header& header, const Pallet& pallet, const Eigen::Vector2d& size_m, MarkerArray& out) {
   const int number = static_cast<int>(out.markers.size());
   const auto box = [&](const char* ns, double from_m, double height_m, double share, const std_msgs::ColorRGBA& c) {
     Marker m = marker(header, ns, number, Marker::CUBE, c);
@@ -70,12 +54,32 @@ void add_pallet(const std_msgs::Header& header, const Pallet& pallet, const Eige
     set_scale(m, share * size_m.x(), share * size_m.y(), height_m);
     return m;
   };
-  Marker name = marker(header, "pallet ids", number, Marker::TEXT_VIEW_FACING, color(1, 1, 1));
-  name.pose.position = point(pallet.T_map_pallet * Eigen::Vector3d(0, 0, kPallet_m + kGoods_m + 0.6));
-  name.scale.z = 0.5;
-  name.text = title(pallet, age_s);
-  out.markers.insert(out.markers.end(), {box("pallets", 0, kPallet_m, 1, color(0.5, 0.36, 0.2)),
-                                         box("goods", kPallet_m, kGoods_m, 0.95, color_of(pallet.state)), name});
+  out.markers.insert(out.markers.end(), {box("pallets", 0, kDrawnPallet_m, 1, color(0.5, 0.36, 0.2)),
+                                         box("goods", kDrawnPallet_m, kDrawnGoods_m, 0.95, color_of(pallet.state))});
+}
+
+void add_label(const std_msgs::Header& header, const PalletLabel& label, MarkerArray& out) {
+  Marker text =
+      marker(header, "pallet ids", static_cast<int>(out.markers.size()), Marker::TEXT_VIEW_FACING, color(1, 1, 1));
+  text.pose.position = point(label.position_map);
+  text.scale.z = kLabelLine_m;
+  text.text = label.text;
+  out.markers.push_back(text);
+}
+
+void add_pallets(const std_msgs::Header& header, const PalletArray& state, const std::vector<PalletSize>& sizes,
+                 MarkerArray& out) {
+  std::vector<Pallet> here;
+  for (const PalletEntry& entry : state.pallets) {
+    const auto pallet = pallet_from(entry);
+    if (!pallet || pallet->state == PalletState::kGone) continue;
+    const auto size =
+        std::find_if(sizes.begin(), sizes.end(), [&](const PalletSize& s) { return s.type == pallet->type; });
+    add_pallet(header, *pallet, (size == sizes.end() ? sizes.front() : *size).size_m, out);
+    here.push_back(*pallet);
+  }
+  for (const PalletLabel& label : pallet_labels(std::move(here), stamp_from(header.stamp)))
+    add_label(header, label, out);
 }
 
 }  // namespace
@@ -100,17 +104,7 @@ void PalletDrawing::draw() {
   out.markers.push_back(marker(header, "", 0, Marker::CUBE, color(0, 0, 0)));
   out.markers.front().action = Marker::DELETEALL;
   for (const Zone& zone : edge_.site().zones) add_zone(header, zone, out);
-  const auto& sizes = edge_.vehicle().pallets;
-  if (state_) {
-    for (const PalletEntry& entry : state_->pallets) {
-      const auto pallet = pallet_from(entry);
-      if (!pallet || pallet->state == PalletState::kGone) continue;
-      const auto size =
-          std::find_if(sizes.begin(), sizes.end(), [&](const PalletSize& s) { return s.type == pallet->type; });
-      const double age_s = std::max(0.0, (header.stamp - entry.changed).toSec());
-      add_pallet(header, *pallet, (size == sizes.end() ? sizes.front() : *size).size_m, age_s, out);
-    }
-  }
+  if (state_) add_pallets(header, *state_, edge_.vehicle().pallets, out);
   markers_.publish(out);
 }
 

@@ -3,7 +3,6 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <sys/timex.h>
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <pluginlib/class_list_macros.hpp>
@@ -12,6 +11,7 @@
 #include "lodestar/ros/convert/battery.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/pose.hpp"
+#include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/nodelets/integrity_message.hpp"
 #include "lodestar/ros/nodelets/wms_params.hpp"
 #include "lodestar/ros/params/line_setup.hpp"
@@ -20,7 +20,6 @@ namespace lodestar {
 namespace {
 
 constexpr double kPollPeriod_s = 0.01;
-constexpr double kCatchUpPeriod_s = 1;  // an event and the state that counts it come one after the other
 
 /// Unlike the steady clock it goes on while the computer sleeps, which would look like a wall clock that was set.
 Instant since_boot() {
@@ -42,6 +41,10 @@ ClockReading clocks() {
 
 }  // namespace
 
+HeardEvent heard_event(const PalletEvent& message) {
+  return {message.sequence, stamp_from(message.header.stamp), message.pallet.id};
+}
+
 void WmsBridgeNodelet::onInit() {
   ros::NodeHandle& nh = getNodeHandle();
   ros::NodeHandle& private_nh = getPrivateNodeHandle();
@@ -59,6 +62,7 @@ void WmsBridgeNodelet::onInit() {
   events_watch_ = &health_->watch("events", Need::kOptional);
   pose_watch_ = &health_->watch("pose", Need::kRequired);
   health_->add_report([this](Health::Status& status) { report(status); });
+  follow_store();
 
   events_ = nh.subscribe("pallets/events", 1000, &WmsBridgeNodelet::take_event, this);
   state_ = nh.subscribe("pallets/state", 1, &WmsBridgeNodelet::take_state, this);
@@ -66,25 +70,39 @@ void WmsBridgeNodelet::onInit() {
   integrity_ = nh.subscribe("pose/integrity", 10, &WmsBridgeNodelet::take_integrity, this);
   battery_ = nh.subscribe("battery", 1, &WmsBridgeNodelet::take_battery, this);
   events_after_ = nh.serviceClient<PalletEventsAfter>("pallets/events_after");
-  watch_ = nh.createWallTimer(ros::WallDuration(kCatchUpPeriod_s), [this](const ros::WallTimerEvent&) {
-    if (told_ > 0 && (!same_count_ || told_ != bridge_->last_heard().sequence)) catch_up();
-  });
-  poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s), [this](const ros::WallTimerEvent&) {
-    bridge_->poll(clocks());
-    if (events_.getNumPublishers() == 0) same_count_ = false;
-  });
+  poll_ = nh.createWallTimer(ros::WallDuration(kPollPeriod_s), [this](const ros::WallTimerEvent&) { poll(); });
 }
 
 WmsBridgeNodelet::~WmsBridgeNodelet() {
   if (bridge_) bridge_->shut_down(clocks());
 }
 
-void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
-  events_watch_->tick();
-  if (!same_count_ || message->sequence != bridge_->last_heard().sequence + 1) catch_up();
-  const auto change = pallet_change_from(*message, map_frame_);
-  if (change && bridge_->last_heard().is(*change)) return;  // it was among them
-  record(*message);
+void WmsBridgeNodelet::poll() {
+  bridge_->poll(clocks());
+  follow_store();
+  if (events_.getNumPublishers() == 0) intake_.lose_sight();
+  catch_up();
+}
+
+/// A damaged store makes room for one that knows nothing.
+void WmsBridgeNodelet::follow_store() {
+  if (stream_ == bridge_->store().stream()) return;
+  stream_ = bridge_->store().stream();
+  intake_.resume_after(bridge_->store().last_heard());
+}
+
+/// What was told while nobody listened, or written down by a node that died before it told it, comes with the answer.
+void WmsBridgeNodelet::catch_up() {
+  while (const auto after = intake_.due(clocks().monotonic)) {
+    PalletEventsAfter service;
+    service.request.sequence = *after;
+    if (events_after_.call(service)) {
+      intake_.answer(std::move(service.response.events), clocks().monotonic);
+    } else {
+      intake_.refused(clocks().monotonic);
+    }
+  }
+  for (const PalletEvent& event : intake_.take()) record(event);
 }
 
 void WmsBridgeNodelet::record(const PalletEvent& message) {
@@ -95,28 +113,14 @@ void WmsBridgeNodelet::record(const PalletEvent& message) {
   bridge_->take(std::move(change).value(), clocks());
 }
 
-/// What was told while nobody listened, or written down by a node that died before it told it. It asks for the last
-/// known event too: where that is another now, or gone, tracking has begun to count anew, however far it has come.
-void WmsBridgeNodelet::catch_up() {
-  const HeardEvent last = bridge_->last_heard();
-  PalletEventsAfter service;
-  service.request.sequence = std::max<std::uint64_t>(last.sequence, 1) - 1;
-  if (!events_after_.call(service)) return;  // it is not there, or is being started again
-  const auto& events = service.response.events;
-  const auto is_last = [&](const PalletEvent& event) {
-    const auto change = pallet_change_from(event, map_frame_);
-    return change && last.is(*change);
-  };
-  const bool same = !events.empty() && is_last(events.front());
-  service.request.sequence = 0;
-  if (!same && !events_after_.call(service)) return;
-  same_count_ = true;
-  for (const PalletEvent& event : events)
-    if (!same || !is_last(event)) record(event);
+void WmsBridgeNodelet::take_event(const PalletEventConstPtr& message) {
+  events_watch_->tick();
+  intake_.hear(*message);
+  catch_up();
 }
 
 void WmsBridgeNodelet::take_state(const PalletArrayConstPtr& message) {
-  told_ = message->last_event;
+  intake_.told(message->last_event, clocks().monotonic);
   std::vector<Pallet> on_fork;
   for (const PalletEntry& entry : message->pallets) {
     const bool in_doubt = entry.state == PalletEntry::UNCERTAIN && lifted_.count(entry.id) > 0;
@@ -159,8 +163,9 @@ void WmsBridgeNodelet::report(Health::Status& status) {
   status.add("on their way", bridge.outbox().on_their_way());
   status.add("resends", bridge.outbox().resends());
   status.add("in memory", bridge.in_memory());
-  status.add("missed", bridge.heard().missed);
-  status.add("tracker restarts", bridge.heard().restarts);
+  status.add("waiting for earlier ones", intake_.waiting());
+  status.add("missed", intake_.counts().missed);
+  status.add("tracker restarts", intake_.counts().restarts);
   status.add("clock steps", bridge.clock_steps());
   status.add("store faults", bridge.store_faults());
   status.add("last store fault", bridge.store_fault());
@@ -174,9 +179,11 @@ void WmsBridgeNodelet::report_trouble(Health::Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   const Bridge& bridge = *bridge_;
   if (!bridge.connected()) status.mergeSummary(DiagnosticStatus::WARN, "no broker: " + bridge.last_failure());
-  if (bridge.heard().missed > 0)
+  if (intake_.waiting() > 0)
+    status.mergeSummary(DiagnosticStatus::WARN, "pallet tracking does not tell the events before the newest");
+  if (intake_.counts().missed > 0)
     status.mergeSummary(DiagnosticStatus::WARN,
-                        std::to_string(bridge.heard().missed) + " pallet events were not heard");
+                        std::to_string(intake_.counts().missed) + " pallet events were not heard");
   if (bridge.in_memory() > 0)
     status.mergeSummary(DiagnosticStatus::ERROR, "the store takes no events: they wait in memory");
   if (bridge.outbox().drops()[AckDrop::kAhead] > 0)

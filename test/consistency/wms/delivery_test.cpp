@@ -93,7 +93,8 @@ TEST_F(Delivery, CredentialsAreAsked) {
   EXPECT_TRUE(connect(params).up);
 }
 
-/// Brokers that speak TLS alone, each with a certificate that it signed itself.
+/// Brokers that speak TLS alone, each with a certificate that it signed itself, and clients whose certificates others
+/// signed.
 class Tls : public Delivery {
  protected:
   void SetUp() override {
@@ -101,19 +102,31 @@ class Tls : public Delivery {
     if (!run("command -v openssl")) GTEST_SKIP() << "openssl, which makes the certificates, is not installed";
     ASSERT_TRUE(run("chmod 755 " + certificates_ / "."));
   }
-  std::unique_ptr<Broker> broker(const std::string& name) {
-    EXPECT_TRUE(
-        run("openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=localhost -addext "
-            "subjectAltName=DNS:localhost,IP:127.0.0.1 -keyout " +
-            certificates_ / (name + ".key") + " -out " + certificates_ / (name + ".pem") + " && chmod 644 " +
-            certificates_ / (name + ".key")));
-    return std::make_unique<Broker>("allow_anonymous true\ncertfile " + certificates_ / (name + ".pem") + "\nkeyfile " +
-                                    certificates_ / (name + ".key"));
+  std::string key(const std::string& name) const { return certificates_ / (name + ".key"); }
+  std::string certificate(const std::string& name) const { return certificates_ / (name + ".pem"); }
+  std::string new_key(const std::string& name) const {
+    return "openssl req -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -subj /CN=" + name + " -keyout " +
+           key(name);
+  }
+  void sign_itself(const std::string& name) const {
+    EXPECT_TRUE(run(new_key(name) + " -x509 -days 2 -addext subjectAltName=DNS:localhost,IP:127.0.0.1 -out " +
+                    certificate(name) + " && chmod 644 " + key(name)));
+  }
+  void sign(const std::string& name, const std::string& issuer, int days) const {
+    const std::string request = certificates_ / (name + ".csr");
+    EXPECT_TRUE(run(new_key(name) + " -out " + request + " && openssl x509 -req -in " + request + " -CA " +
+                    certificate(issuer) + " -CAkey " + key(issuer) + " -CAcreateserial -days " + std::to_string(days) +
+                    " -out " + certificate(name)));
+  }
+  std::unique_ptr<Broker> broker(const std::string& name, const std::string& extra = "") {
+    sign_itself(name);
+    return std::make_unique<Broker>("allow_anonymous true\ncertfile " + certificate(name) + "\nkeyfile " + key(name) +
+                                    "\n" + extra);
   }
   static std::string uri(const Broker& broker) { return "ssl://localhost:" + std::to_string(broker.port()); }
   MqttParams trusting(const std::string& name, const std::string& client, std::vector<std::string> brokers) const {
     MqttParams params = mqtt(client, std::move(brokers));
-    params.ca_file = certificates_ / (name + ".pem");
+    params.ca_file = certificate(name);
     return params;
   }
 
@@ -125,6 +138,27 @@ TEST_F(Tls, ABrokerThatNobodyVouchesForIsRefused) {
   EXPECT_TRUE(connect(trusting("known", "truck7", {uri(*known)})).up);
   EXPECT_TRUE(connect(trusting("known", "truck7", {uri(*stranger)})).down);
   EXPECT_TRUE(connect(mqtt("truck7", {known->uri()})).down) << "no TLS";
+}
+
+TEST_F(Tls, AClientThatNobodyVouchesForIsRefused) {
+  sign_itself("fleet");
+  sign_itself("other_fleet");
+  sign("right", "fleet", 2);
+  sign("wrong", "other_fleet", 2);
+  sign("expired", "fleet", -1);
+  const auto known = broker("known", "cafile " + certificate("fleet") + "\nrequire_certificate true");
+  const auto bearing = [&](const std::string& name) {
+    MqttParams params = trusting("known", "truck7", {uri(*known)});
+    params.certificate_file = certificate(name);
+    params.key_file = key(name);
+    return connect(params);
+  };
+  EXPECT_TRUE(bearing("right").up);
+  for (const std::string name : {"wrong", "expired"}) {
+    const Outcome outcome = bearing(name);
+    EXPECT_TRUE(outcome.down && !outcome.up) << name;
+  }
+  EXPECT_TRUE(connect(trusting("known", "truck7", {uri(*known)})).down) << "none at all";
 }
 
 TEST_F(Tls, AStrangerInTheListIsPassedOver) {

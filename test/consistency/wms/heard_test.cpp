@@ -84,7 +84,8 @@ class Heard : public testing::Test {
   void keep(const std::string& name, const std::string& text) { std::ofstream(folder_ / (name + ".json")) << text; }
   /// @return exit code: 77 says that the schema, or what reads it, is missing
   int check(const std::string& kind, const std::string& schemas) {
-    const std::string command = LODESTAR_SCHEMAS_TEST " " + kind + " " + folder_ / "" + " '" + schemas + "'";
+    const std::string command =
+        "timeout 60 " LODESTAR_SCHEMAS_TEST " " + kind + " " + folder_ / "" + " '" + schemas + "'";
     return WEXITSTATUS(std::system(command.c_str()));
   }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lodestar/wms/bridge.hpp"
+#include "lodestar/wms/iso_time.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
 #include "support/bridge_params.hpp"
 #include "support/broker.hpp"
@@ -81,12 +82,13 @@ class Trouble : public testing::Test {
 TEST_F(Trouble, TenThousandEventsOfADayWithoutNetworkDrain) {
   brokers_[0]->kill();
   constexpr int kEvents = 10000;
-  const Duration between = from_seconds(86400.0 / kEvents);
+  const Duration day = std::chrono::hours(24), between = day / (kEvents - 1) + Duration(1);
+  std::vector<Stamp> stamps;
   for (int n = 1; n <= kEvents; ++n) {
     PalletChange event = change(n);
     wall_ahead_ += between;
     slept_ += between;
-    event.stamp = now().wall;
+    stamps.push_back(event.stamp = now().wall);
     bridge_->take(event, now());
     if (n % 100 == 0) bridge_->poll(now());
   }
@@ -97,8 +99,8 @@ TEST_F(Trouble, TenThousandEventsOfADayWithoutNetworkDrain) {
   brokers_[0]->start();
   EXPECT_TRUE(acknowledged(kEvents, 60)) << bridge_->outbox().waiting() << " " << bridge_->last_failure();
   site_->expect_all_once(kEvents);
-  const std::string first = event(0)["eventTime"], last = event(kEvents - 1)["eventTime"];
-  EXPECT_NE(first.substr(0, 10), last.substr(0, 10)) << "another day";
+  EXPECT_GE(stamps.back() - stamps.front(), day);
+  for (const std::size_t i : {0, kEvents / 2, kEvents - 1}) EXPECT_EQ(event(i)["eventTime"], iso_time(stamps[i]));
   EXPECT_FALSE(event(0).contains("lodestar:clock")) << "time went on, nobody set it";
 }
 
@@ -182,11 +184,14 @@ TEST_F(Trouble, AcknowledgementsThatRepeatOrComeOutOfOrderMoveNothing) {
     other.publish({topic, message_text(Acknowledgement{stream, said[step % 4]}), 1, false});
     if (step++ % 7 == 0) other.publish({topic, "{\"sequence\":", 1, false});
   };
-  const auto done = [&] { return bridge_->outbox().acknowledged() == 500; };
-  EXPECT_TRUE(run_until([&] { return done() && step > 100; }, disturb, 30));
+  const auto done = [&] { return bridge_->outbox().acknowledged() == 500 && step > 100; };
+  EXPECT_TRUE(run_until(done, disturb, 30));
   site_->expect_all_once(500);
-  for (const AckDrop drop : {AckDrop::kMalformed, AckDrop::kOtherStream, AckDrop::kLate, AckDrop::kAhead})
-    EXPECT_GT(bridge_->outbox().drops()[drop], 0u) << name(drop);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(AckDrop::kCount); ++i) {
+    const auto drop = static_cast<AckDrop>(i);
+    EXPECT_TRUE(run_until([&] { return bridge_->outbox().drops()[drop] > 0; }, disturb, 30)) << name(drop);
+  }
+  EXPECT_EQ(bridge_->store().acknowledged(), 500u);
 }
 
 TEST_F(Trouble, OneOfTwoBrokersDiesWithEventsUnderWay) {

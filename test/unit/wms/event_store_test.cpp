@@ -52,7 +52,7 @@ TEST_F(Store, NumbersFromOneAndKeepsEverythingOverARestart) {
   EventStore store(params(), uuid(901));
   EXPECT_EQ(store.stream(), kStream);
   EXPECT_EQ(store.last(), 6u);
-  EXPECT_TRUE(store.last_heard().is(change(6)));
+  EXPECT_EQ(store.last_heard(), heard_event(change(6)));
   EXPECT_EQ(store.acknowledged(), 2u);
   const auto documents = store.documents(3, 3, freeze);
   ASSERT_EQ(documents.size(), 3u);
@@ -188,7 +188,7 @@ TEST_F(Store, AFullFileKnowsWhatItHeardLast) {
     EXPECT_EQ(store.record(change(10), std::string(1000000, 'd')), Recorded::kFull);
   }
   EventStore store(small, kStream);
-  EXPECT_TRUE(store.last_heard().is(change(9)));
+  EXPECT_EQ(store.last_heard(), heard_event(change(9)));
   EXPECT_EQ(store.record(change(9), "d"), Recorded::kKnown);
   EXPECT_EQ(store.documents(1, 8, freeze).front().sequence, 9u) << "history went";
 }

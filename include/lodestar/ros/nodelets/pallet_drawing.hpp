@@ -7,8 +7,8 @@
 
 namespace lodestar {
 
-/// The site's zones and the pallets of `pallets/state`, for rviz: each with its label's or id's end, and how long it
-/// has been so.
+/// The site's zones and the pallets of `pallets/state`, for rviz: each stack with its pallets'
+/// names and ages.
 class PalletDrawing {
  public:
   PalletDrawing(ros::NodeHandle& nh, StageEdge& edge);

@@ -13,9 +13,13 @@
 #include "lodestar/PoseIntegrity.h"
 #include "lodestar/ros/nodelets/health.hpp"
 #include "lodestar/wms/bridge.hpp"
+#include "lodestar/wms/event_intake.hpp"
 #include "lodestar/wms/mqtt_link.hpp"
 
 namespace lodestar {
+
+/// Which event this is, whether it can be converted or not.
+HeardEvent heard_event(const PalletEvent& message);
 
 /// `pallets/events` to the warehouse's software over MQTT: Bridge as a nodelet (docs/nodes/wms_bridge.md).
 class WmsBridgeNodelet : public nodelet::Nodelet {
@@ -24,9 +28,11 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
 
  private:
   void onInit() override;
-  void take_event(const PalletEventConstPtr& message);
-  void record(const PalletEvent& message);
+  void poll();
+  void follow_store();
   void catch_up();
+  void record(const PalletEvent& message);
+  void take_event(const PalletEventConstPtr& message);
   void take_state(const PalletArrayConstPtr& message);
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   void take_integrity(const PoseIntegrityConstPtr& message);
@@ -41,12 +47,12 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
   std::unique_ptr<Bridge> bridge_;
   StreamWatch* events_watch_ = nullptr;
   StreamWatch* pose_watch_ = nullptr;
-  std::uint64_t told_ = 0;        ///< number of the newest event that pallet tracking has
-  bool same_count_ = false;       ///< its count is known to be the one that was heard last
+  EventIntake<PalletEvent> intake_;
+  std::string stream_;            ///< of the store that the intake goes on from
   std::set<std::string> lifted_;  ///< ids of what the fork took, in doubt or not
   ros::Subscriber events_, state_, pose_, integrity_, battery_;
   ros::ServiceClient events_after_;
-  ros::WallTimer poll_, watch_;
+  ros::WallTimer poll_;
 };
 
 }  // namespace lodestar
