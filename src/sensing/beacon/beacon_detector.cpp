@@ -94,13 +94,17 @@ bool BeaconDetector::breaks_window(const Image& image) const {
   return window_.size() > 2 && seconds(image.stamp - before.stamp) > 0.5 * params_.window_frames * window_.period_s();
 }
 
-double BeaconDetector::power_threshold(const Image& image) const {
+PowerThresholds BeaconDetector::power_thresholds(const Image& image) const {
   // A blob's place is free: the highest power among all places is that of this many independent pixels.
   constexpr double kPlacesPerPixel = 5.0;
-  const double trials_per_hour = 3600.0 / window_.period_s() * kPlacesPerPixel * image.width_px * image.height_px *
-                                 static_cast<double>(params_.tone_table_hz.size());
+  const double frames_per_hour = 3600.0 / window_.period_s();
   // Power over variance is chi-square with two degrees of freedom: P(> x) = exp(-x / 2).
-  return 2.0 * std::log(trials_per_hour / params_.false_alarms_per_hour);
+  const auto threshold = [&](double trials) {
+    return 2.0 * std::log(frames_per_hour * trials / params_.false_alarms_per_hour);
+  };
+  return {
+      threshold(kPlacesPerPixel * image.width_px * image.height_px * static_cast<double>(params_.tone_table_hz.size())),
+      threshold(params_.max_blobs)};
 }
 
 bool BeaconDetector::image_moves() const {
@@ -136,7 +140,7 @@ void BeaconDetector::choose_lags() {
   }
 }
 
-void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
+void BeaconDetector::discover(const PowerThresholds& thresholds, const PixelNoise& noise) {
   for (const ChangeScan::Change& change : scan_.restless()) {
     if (tracker_.covers(change.pixel.cast<double>())) continue;
     if (searches_left_ <= 0) {
@@ -144,13 +148,13 @@ void BeaconDetector::discover(double power_threshold, const PixelNoise& noise) {
       continue;
     }
     const PixelNoise around{scan_.variance_around(change.pixel), noise.white_level};
-    const auto flash = search_.find(window_, bank_, change.pixel, power_threshold, around);
+    const auto flash = search_.find(window_, bank_, change.pixel, thresholds.new_code, around);
     BlobTrack* const track = flash ? tracker_.start_still(flash->pixel, flash->variance) : nullptr;
     if (track) track->set_surround(around.dark_variance);
     // A moving blob may be here as well: only a code that stands the test takes its place.
     const bool suspected = tracker_.suspects(change.pixel.cast<double>());
-    const bool found = track && read_new(*track, power_threshold, around) &&
-                       (!suspected || reader_.read(*track, window_, bank_, power_threshold, around.dark_variance));
+    const bool found = track && read_new(*track, thresholds.new_code, around) &&
+                       (!suspected || reader_.read(*track, window_, bank_, thresholds, around.dark_variance));
     if (track && !found) tracker_.drop_last();
     if (found && suspected) tracker_.drop_suspects_of_last();
     scan_.settle(change.pixel, found);
@@ -196,10 +200,10 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
   result.sightings.clear();
   if (!window_.full()) return result;
   bank_.update();
-  const double limit = power_threshold(image);
-  if (stands) discover(limit, noise);
+  const PowerThresholds thresholds = power_thresholds(image);
+  if (stands) discover(thresholds, noise);
   for (BlobTrack& track : tracker_) {
-    const auto sighting = reader_.read(track, window_, bank_, limit, track.dark_variance(noise));
+    const auto sighting = reader_.read(track, window_, bank_, thresholds, track.dark_variance(noise));
     if (!sighting || !camera_->contains(sighting->pixel)) continue;
     const auto twin = std::find_if(result.sightings.begin(), result.sightings.end(), [&](const Sighting& other) {
       return (other.pixel - sighting->pixel).norm() < kMergePx;

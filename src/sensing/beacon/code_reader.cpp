@@ -15,6 +15,7 @@ constexpr double kMaxCentreSigmaPx = 1.0;  ///< a blob that is not known better 
 constexpr float kMinDepth = 0.15f;         ///< of the code's light, rms, beside the mean of all light there
 constexpr float kBelowZero = 0.1f;         ///< of the mean: how far the tones of a light, which never is, may go
 constexpr float kMaxToneError = 0.15f;     ///< of the varying light, that the tones leave: pauses cost some
+constexpr float kMaxKnownError = 0.2f;  ///< ... once it was read: windows that still hold the dark before come and go
 constexpr float kMaxRhythmError = 0.035f;  ///< ... where they are one tone and its multiples: glitter has these too
 constexpr float kMaxOnOffError = 0.2f;     ///< ... that being on or off leaves: more, where blur and edges cut it
 constexpr float kMaxUneven = 0.025f;       ///< ... that the midst of bright and dark halves leaves of being flat
@@ -41,6 +42,9 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
   const float cross = (flux * shift).sum();
   return shift.square().sum() - cross * cross / flux_square;
 }
+
+/// Whether the blob has been read so and not been hidden since: what it must prove then is less.
+bool is_known(const BlobTrack& track, const ToneSet& code) { return code == track.code && !track.hidden; }
 
 }  // namespace
 
@@ -174,7 +178,9 @@ bool CodeReader::has_waveform(const BlobTrack& track, const ToneBank& bank, cons
   if (reading.on_off_misfit < kMaxUneven * light + scatter && on_off_residual(flux) < kMaxOnOffError * light + scatter)
     return true;
   const float deepest = kBelowZero * reading.mean + 3 * std::sqrt((1 + 2 * tones) / frames * noise);
-  const float most = bank.is_one_rhythm(reading.code) ? kMaxRhythmError : kMaxToneError;
+  const float most = bank.is_one_rhythm(reading.code) ? kMaxRhythmError
+                     : is_known(track, reading.code)  ? kMaxKnownError
+                                                      : kMaxToneError;
   return reading.tone_misfit < most * light + scatter && reading.mean + wave_.minCoeff() > -deepest;
 }
 
@@ -351,7 +357,7 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
 }
 
 std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
-                                         double power_threshold, double dark_variance) {
+                                         const PowerThresholds& thresholds, double dark_variance) {
   const bool whole = track.frames() == window.capacity();
   constexpr int kLeastFreedom = 4;  // of a fit that means something
   const int freedom = track.frames() - 1 - 2 * track.code.size();
@@ -368,7 +374,8 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
     track.hide();
     return std::nullopt;
   }
-  if (reading.weakest_over_noise < power_threshold) return std::nullopt;
+  const double threshold = is_known(track, reading.code) ? thresholds.known_code : thresholds.new_code;
+  if (reading.weakest_over_noise < threshold) return std::nullopt;
   if (whole && !has_waveform(track, bank, reading, dark_variance)) return std::nullopt;
   if (whole) {
     track.code = reading.code;

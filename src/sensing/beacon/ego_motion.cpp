@@ -9,10 +9,10 @@
 namespace lodestar {
 namespace {
 
-constexpr double kGate = 2 * 9.0;                  ///< 3 sigma, both components
-constexpr int kLeastBlobs = 3;                     ///< two may be one truck's lamps
-constexpr double kFirstSigma = 2;                  ///< rad/s, plane heights/s
-constexpr double kMinStep = 0.03, kMaxStep = 0.5;  ///< a frame
+constexpr double kGate = 2 * 9.0;                                    ///< 3 sigma, both components
+constexpr int kLeastBlobs = 3;                                       ///< two may be one truck's lamps
+constexpr double kFirstSigma = 2;                                    ///< rad/s, plane heights/s
+constexpr double kMinStep = 0.03, kFirstStep = 0.1, kMaxStep = 0.2;  ///< a frame
 
 }  // namespace
 
@@ -70,7 +70,7 @@ bool EgoMotion::start(const std::vector<Flow>& flows, double interval_s) {
   if (best.agreeing < kLeastBlobs || 2 * best.agreeing <= count || 2 * witnesses <= count) return false;
   twist_ = twist_of(best.rates);
   trend_.setZero();
-  step_sigma_ = kMinStep;
+  step_sigma_ = kFirstStep;  // its trend is not known yet
   doubted_ = 0;
   known_ = true;
   return true;
@@ -86,7 +86,9 @@ EgoMotion::Twist EgoMotion::refine(const std::vector<Flow>& flows) {
 
   const Fit fit = EgoMotion::fit(flows, kind_, step_sigma_);
   const bool agreed = fit.agreeing > 0 && 2 * fit.agreeing >= static_cast<int>(flows.size());
-  doubted_ = agreed ? 0 : doubted_ + 1;
+  // No truck and no hand turns so fast for long: it moves in the other way, and three rates follow a few blobs anyhow.
+  const bool doubtful = !agreed || step_sigma_ == kMaxStep;
+  doubted_ = doubtful ? doubted_ + 1 : 0;
   known_ = doubted_ <= kPatience;
   // What one or two blobs show beside the trend may be their own.
   const bool trusted = agreed && fit.agreeing >= kLeastBlobs;

@@ -72,10 +72,10 @@ class BeaconDetector {
  private:
   std::optional<FrameDrop> fault(const Image& image) const;
   bool breaks_window(const Image& image) const;
-  double power_threshold(const Image& image) const;
+  PowerThresholds power_thresholds(const Image& image) const;
   bool image_moves() const;
   void choose_lags();
-  void discover(double power_threshold, const PixelNoise& noise);
+  void discover(const PowerThresholds& thresholds, const PixelNoise& noise);
   bool read_new(BlobTrack& track, double power_threshold, const PixelNoise& noise);
 
   BeaconDetectorParams params_;

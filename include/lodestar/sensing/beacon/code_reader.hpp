@@ -18,6 +18,12 @@ struct CodeReaderParams {
   double min_explained = 0.6;  ///< share of a blob's varying light that its code must account for
 };
 
+/// Of each tone of a code, power over the noise.
+struct PowerThresholds {
+  double new_code;    ///< wherever in the image, whatever its tones
+  double known_code;  ///< of a blob that was read so before: far fewer trials an hour
+};
+
 /// Reads the code of a blob from its light over the window, and says where it is now.
 class CodeReader {
  public:
@@ -25,9 +31,8 @@ class CodeReader {
 
   /// The sighting that the blob makes in the newest frame; none where its light is not a code, is too faint, or has
   /// gone. A blob that was hidden is read from half a window on, and then only as what it was.
-  /// @param power_threshold of each tone of the code over the noise
   std::optional<Sighting> read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
-                               double power_threshold, double dark_variance);
+                               const PowerThresholds& thresholds, double dark_variance);
 
   /// Learns the noise of a new blob's pixels and its centre from a full window.
   void learn(BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);

@@ -104,6 +104,19 @@ TEST(Follow, FirstSightingGhostsAndReturn) {
   }
 }
 
+TEST(Follow, OneSightingEachFrameFromTheFirstOn) {
+  for (const double speed_px : {0., 1., 2.}) {
+    for (unsigned seed = 0; seed < 15; ++seed) {
+      test::DarkAndHidden trial;
+      trial.speed_px = speed_px;
+      trial.hidden_frames = 5;
+      trial.light = 400;
+      trial.run(seed);
+      EXPECT_EQ(trial.gaps, 0) << speed_px << " px a frame, run " << seed;
+    }
+  }
+}
+
 TEST(Follow, WhatTakesTheHiddenOnesPlaceIsReadAsItself) {
   constexpr int kN = 30;
   for (const ToneSet& back : {ToneSet{1, 4, 6}, ToneSet{1, 6}, ToneSet{1}}) {
