@@ -39,11 +39,13 @@ Tally correct_with_fix(FilterState& state, const Fix& fix, const Rig& rig, const
                        const PoseFilterParams& params) {
   const FixCovariance C = fix_covariance(fix);
   const double share = params.fix_systematic_share;
-  const int position = offset_of(state, kFixPosition, share * C.topLeftCorner<3, 3>(), params);
-  const int yaw = offset_of(state, kFixYaw, yaw_prior(share * C(3, 3)), params);
-  Innovation<4> m = fix_innovation(state, fix, position, yaw, rig, (1.0 - share) * C);
-  if (share > 0) m.R.diagonal().array() += 1e-12;
-  std::optional<Stamp>& last_used = state.offsets[position].last_used;
+  std::optional<FixOffsets> offsets;
+  if (share > 0)
+    offsets = FixOffsets{offset_of(state, kFixPosition, share * C.topLeftCorner<3, 3>(), params),
+                         offset_of(state, kFixYaw, yaw_prior(share * C(3, 3)), params)};
+  Innovation<4> m = fix_innovation(state, fix, offsets, rig, (1.0 - share) * C);
+  if (offsets) m.R.diagonal().array() += 1e-12;
+  std::optional<Stamp>& last_used = state.health.last_fix;
   if (last_used)
     m.inflation = std::max(1.0, params.fix_correlation_s / std::max(seconds(state.stamp - *last_used), 1e-3));
   Tally tally;

@@ -89,6 +89,7 @@ struct Inputs {
 /// How the optical updates fare.
 struct Health {
   Stamp last_optical;                   ///< accepted
+  std::optional<Stamp> last_fix;        ///< accepted
   std::optional<Stamp> rejected_since;  ///< first of a run of optical updates that contradict the state
   int rejected = 0;                     ///< length of the run
   std::optional<Stamp> wheels_rejected_since;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "lodestar/base/measurement/pose_estimate.hpp"
 #include "lodestar/estimation/fusion/kalman_update.hpp"
 #include "lodestar/estimation/fusion/rig.hpp"
@@ -11,9 +13,15 @@ namespace lodestar::fusion {
 using FixCovariance = Eigen::Matrix4d;
 FixCovariance fix_covariance(const PoseEstimate& fix);
 
-/// @param position_offset_index, yaw_offset_index offsets that the fix is expected to be off by (m in map; rad, its z)
+/// The source offsets that a fix is expected to be off by.
+struct FixOffsets {
+  int position = 0;  ///< m in map
+  int yaw = 0;       ///< rad, its z
+};
+
+/// @param offsets none where a fix has white errors alone
 /// @param R of the white part
-Innovation<4> fix_innovation(const FilterState& state, const PoseEstimate& fix, int position_offset_index,
-                             int yaw_offset_index, const Rig& rig, const FixCovariance& R);
+Innovation<4> fix_innovation(const FilterState& state, const PoseEstimate& fix,
+                             const std::optional<FixOffsets>& offsets, const Rig& rig, const FixCovariance& R);
 
 }  // namespace lodestar::fusion

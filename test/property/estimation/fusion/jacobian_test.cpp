@@ -114,7 +114,7 @@ TEST_P(Jacobians, fix) {
   fix.T_map_base.translation() = x.position + vector(0.5);
   fix.T_map_base.linear() = so3_exp(vector(0.1)) * x.q_map_base.toRotationMatrix();
   const auto innovation = [&](const FilterState& at) {
-    return fix_innovation(at, fix, 0, 1, r, FixCovariance::Identity());
+    return fix_innovation(at, fix, FixOffsets{0, 1}, r, FixCovariance::Identity());
   };
   expect_near(full_jacobian(x, innovation(x)),
               numeric_jacobian<4>(x, [&](const FilterState& at) { return innovation(at).residual; }), 1e-7);
