@@ -8,7 +8,8 @@ using diagnostic_msgs::DiagnosticStatus;
 
 StaleLimits read_stale_limits(ParamReader& params, StaleLimits otherwise) {
   return {params.number("stale_warn_s", otherwise.warn_s, {0.01, 3600}),
-          params.number("stale_error_s", otherwise.error_s, {0.01, 3600})};
+          params.number("stale_error_s", otherwise.error_s, {0.01, 3600}),
+          params.number("diagnostic_period", otherwise.report_every_s, {0.1, 60})};
 }
 
 StreamWatch::StreamWatch(std::string name, Need need, const StaleLimits& limits)
@@ -40,7 +41,8 @@ Health::Health(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, con
   updater_.setHardwareID(hardware_id);
   updater_.add(task, [this](Status& status) { run(status); });
   // Not Updater::update(): it waits for ROS time to pass, which may stand or go back.
-  timer_ = nh.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  timer_ = nh.createWallTimer(ros::WallDuration(limits.report_every_s),
+                              [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
 StreamWatch& Health::watch(const std::string& name, Need need) { return watches_.emplace_back(name, need, limits_); }

@@ -80,7 +80,11 @@ class BagPlayer {
       if (filter == filters_.end() || filter->second(message)) send(message);
     }
   }
-  void rewind() { next_ = 0; }
+  /// Nodes that start anew then do not answer at once.
+  void rewind() {
+    next_ = 0;
+    answering_ = false;
+  }
   bool at_end() const { return next_ >= messages_.size(); }
 
   template <class Message>

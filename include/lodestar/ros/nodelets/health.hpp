@@ -14,13 +14,14 @@
 
 namespace lodestar {
 
-/// After how long without a message a stream is stale.
+/// After how long without a message a stream is stale, and how often that is told.
 struct StaleLimits {
   double warn_s = 1.0;
   double error_s = 5.0;
+  double report_every_s = 1.0;
 };
 
-/// Parameters `~stale_warn_s` and `~stale_error_s`.
+/// Parameters `~stale_warn_s`, `~stale_error_s` and, as all nodes of ROS have it, `~diagnostic_period`.
 StaleLimits read_stale_limits(ParamReader& params, StaleLimits otherwise = {});
 
 enum class Need { kRequired, kOptional };
@@ -40,8 +41,8 @@ class StreamWatch {
   std::uint64_t count_ = 0, count_at_report_ = 0;
 };
 
-/// A node's word in /diagnostics: streams, drops by reason and whatever else the node reports, once a second of the
-/// wall clock. Runs on the node handle's own queue, so it never meets another callback of the node.
+/// A node's word in /diagnostics: streams, drops by reason and whatever else the node reports, by the wall
+/// clock. Runs on the node handle's own queue, so it never meets another callback of the node.
 class Health {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -55,7 +56,7 @@ class Health {
   void drop(EdgeDrop reason) { edge_drops_.add(reason); }
   void drop(MessageDrop reason) { message_drops_.add(reason); }
   void count_reset() { ++resets_; }
-  /// Without waiting for the second to pass.
+  /// Without waiting for the next report to be due.
   void report_now() { updater_.force_update(); }
 
  private:
