@@ -17,6 +17,7 @@
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/keyed_site.hpp"
 #include "ros/support/nodelets.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -42,12 +43,15 @@ DistrustedBeacon distrusted_since(std::uint32_t id, const ros::Time& since) {
 
 class IrDecoding : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto loaded = load_site(ros::param::param<std::string>("/site", ""));
-    ASSERT_TRUE(loaded.ok());
+  void SetUp() override { start(ros::param::param<std::string>("/site", "")); }
+  void TearDown() override { EXPECT_TRUE(unload_nodelet(kNode)); }
+
+  void start(const std::string& site_path) {
+    const auto loaded = load_site(site_path);
+    ASSERT_TRUE(loaded.ok()) << describe(loaded.error());
     site_ = *loaded;
-    ros::param::set("/ir_decoding/memory", folder_ / "confirmed.yaml");
-    ros::param::set("/ir_decoding/site", ros::param::param<std::string>("/site", ""));
+    ros::param::set("/ir_decoding/memory", memory_);
+    ros::param::set("/ir_decoding/site", site_path);
     ASSERT_TRUE(load_nodelet(kNode, kType));
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
@@ -74,12 +78,34 @@ class IrDecoding : public testing::Test {
     frame.levels = {0.5f};
     player_.publish("/ir/frames", ir_frame_message(frame, "ir_array"));
   }
+  /// Again, with what it keeps.
+  void restart() {
+    ASSERT_TRUE(unload_nodelet(kNode));
+    ASSERT_TRUE(load_nodelet(kNode, kType));
+    ASSERT_TRUE(player_.connected({"/ir/frames"}));
+    ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
+  }
+  bool confirm(BeaconId id) {
+    ConfirmBeacon confirm;
+    confirm.request.beacon_id = id.value;
+    return ros::service::call("/ir_decoding/confirm_beacon", confirm) && confirm.response.success;
+  }
+  bool kept(BeaconId id) const { return text_of(memory_).find("id: " + std::to_string(id.value)) != std::string::npos; }
+  bool in_conflict(BeaconId id) {
+    GetBeacons table;
+    EXPECT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
+    for (const auto& entry : table.response.beacons)
+      if (entry.beacon_id == id.value) return entry.conflict;
+    ADD_FAILURE() << "no beacon " << id;
+    return false;
+  }
   bool dropped(const std::string& reason, long at_least) {
     return wait_for([&] { return diagnostics_.count(kNode, "dropped: " + reason) >= at_least; });
   }
 
   ros::NodeHandle nh_;
   TemporaryFolder folder_;
+  const std::string memory_ = folder_ / "confirmed.yaml";
   Site site_;
   BagPlayer player_{nh_, ros::param::param<std::string>("/bag", "")};
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
@@ -197,9 +223,6 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   }
 
   // Whom the filter found out since is no longer confirmed; who was confirmed since stays so, whoever starts when.
-  const auto kept = [&](BeaconId id) {
-    return text_of(folder_ / "confirmed.yaml").find("id: " + std::to_string(id.value)) != std::string::npos;
-  };
   EXPECT_TRUE(kept(moved.beacon) && kept(other.id));
   DistrustedBeaconArray distrusted;
   distrusted.beacons = {distrusted_since(moved.beacon.value, told.header.stamp - ros::Duration(1)),
@@ -269,6 +292,37 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_EQ(announcements_.last().superframe, sampled.superframe);
   EXPECT_NEAR((announcements_.last().header.stamp - begin).toSec(), kLead_s, 1e-5);
   EXPECT_EQ(announcements_.last().levels.size(), 8u);
+}
+
+class IrDecodingWithKey : public IrDecoding {
+ protected:
+  void SetUp() override { start(keyed_site(ros::param::param<std::string>("/site", ""), folder_)); }
+
+  /// Beacon 11 says so, `late_s` after it should.
+  void hear(std::uint32_t superframe, double late_s = 0, double moved_m = 0) {
+    Announcement a = announcement(superframe);
+    a.position_map.x() += moved_m;
+    send(a, ros::Time(1000 + late_s + superframe * site_.link.slot_s * site_.link.slot_count));
+  }
+};
+
+TEST_F(IrDecodingWithKey, ARecordingThatIsHeardFirstTakesNoConfirmationAway) {
+  const BeaconId id = site_.beacons[0].id;
+  hear(100, 0, 1.0);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 1; }));
+  ASSERT_TRUE(confirm(id));
+  EXPECT_TRUE(kept(id));
+
+  restart();
+  hear(77, 3600);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 2; })) << "where it hung before it was moved";
+  EXPECT_TRUE(in_conflict(id));
+  const std::size_t told = confirmed_.size();
+  hear(20000, 0, 1.0);
+  ASSERT_TRUE(wait_for([&] { return announcements_.size() == 1; }));
+  EXPECT_FALSE(in_conflict(id));
+  EXPECT_TRUE(kept(id));
+  EXPECT_TRUE(wait_for([&] { return confirmed_.size() == told + 1; })) << "whoever started meanwhile has to know";
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "lodestar/BeaconAnnouncement.h"
 #include "lodestar/BeaconSightingArray.h"
@@ -15,6 +13,7 @@
 #include "ros/support/bag_player.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/keyed_site.hpp"
 #include "ros/support/nodelets.hpp"
 #include "ros/support/truth.hpp"
 #include "support/temporary_folder.hpp"
@@ -31,7 +30,7 @@ class StrangerOnTheChannel : public testing::Test {
     const auto without_key = load_site(keyless);
     ASSERT_TRUE(without_key.ok());
     bag_site_ = *without_key;
-    const auto with_key = load_site(with_a_key(keyless));
+    const auto with_key = load_site(keyed_site(keyless, folder_));
     ASSERT_TRUE(with_key.ok()) << describe(with_key.error());
     site_ = *with_key;
     for (const auto& [node, type] : {std::pair("ir_decoding", "lodestar/IrDecodingNodelet"),
@@ -46,17 +45,6 @@ class StrangerOnTheChannel : public testing::Test {
     ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom", "/ir/frames"}));
     ASSERT_TRUE(wait_for([&] { return sightings_.connected() && poses_.connected() && announcements_.connected(); }));
     player_.send_mounts();
-  }
-
-  /// The same site file with a key beside it.
-  std::string with_a_key(const std::string& site_path) const {
-    std::ifstream file(site_path);
-    std::string text(std::istreambuf_iterator<char>(file), {});
-    const std::string link = "link: {";
-    text.insert(text.find(link) + link.size(), "key_file: site.key, ");
-    std::ofstream(folder_ / "site.key") << "000102030405060708090a0b0c0d0e0f\n";
-    std::ofstream(folder_ / "site.yaml") << text;
-    return folder_ / "site.yaml";
   }
 
   void play(Trick trick, double duration_s) {

@@ -41,7 +41,8 @@ ToneSet tones_in(const YAML::Node& node) {
 Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory)
     : site_(site), file_(std::move(memory)) {
   const auto tell = [this](const ros::SingleSubscriberPublisher& newcomer) {
-    for (const auto& [id, confirmation] : confirmed_) newcomer.publish(message(confirmation));
+    for (const auto& [id, confirmation] : confirmed_)
+      if (left_out_.count(id) == 0) newcomer.publish(message(confirmation));
   };
   publisher_ = nh.advertise<BeaconConfirmation>("beacons/confirmed", 200, tell);
   distrusted_input_ = nh.subscribe("beacons/distrusted", 10, &Confirmations::take_distrusted, this);
@@ -108,6 +109,20 @@ void Confirmations::add(const Announcement& announcement, Stamp now) {
   publisher_.publish(message(confirmation));
   if (in_site(announcement.beacon) == nullptr) return;
   confirmed_[announcement.beacon] = confirmation;
+  left_out_.erase(announcement.beacon);
+  save();
+}
+
+void Confirmations::follow(const BeaconTable& table) {
+  if (table.revision() == revision_) return;
+  revision_ = table.revision();
+  const std::set<BeaconId> before = left_out_;
+  left_out_.clear();
+  for (const auto& [id, entry] : table.entries())
+    if (entry.in_site_file && entry.conflict) left_out_.insert(id);
+  if (left_out_ == before) return;
+  for (const BeaconId id : before)
+    if (confirmed_.count(id) > 0 && left_out_.count(id) == 0) publisher_.publish(message(confirmed_.at(id)));
   save();
 }
 
@@ -121,6 +136,7 @@ void Confirmations::save() {
   text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n"
        << std::setprecision(12);
   for (const auto& [id, confirmation] : confirmed_) {
+    if (left_out_.count(id) > 0) continue;
     const Announcement& a = confirmation.announcement;
     text << "- {id: " << id << ", position_m: ";
     write(text, a.position_map);

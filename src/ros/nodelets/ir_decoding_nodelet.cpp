@@ -92,12 +92,10 @@ void IrDecodingNodelet::decode(const RawIrFrame& frame) {
   if (!announcement) return table_->count(announcement.error());
   if (!plausible(*announcement)) return table_->count(IrDrop::kDirection);
   const auto refused = table_->accept(*announcement);
+  confirmations_->follow(*table_);
   const BeaconAnnouncement out = announcement_message(*announcement, site_.frame_id);
   if (refused == IrDrop::kSuperframe && arrivals_->arrivals().add_again(*announcement)) doubtful_.publish(out);
-  if (refused == IrDrop::kConflict) {
-    confirmations_->forget(announcement->beacon);
-    conflicts_.publish(out);
-  }
+  if (refused == IrDrop::kConflict) conflicts_.publish(out);
   if (refused) return;
   arrivals_->arrivals().add(*announcement);
   announcements_.publish(out);

@@ -1,6 +1,8 @@
 #include "lodestar/sensing/irlink/superframe_clock.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lodestar {
 
@@ -49,53 +51,75 @@ bool SuperframeClock::advances(const Instant& instant, BeaconId beacon) const {
   return last == superframes_.end() || counted(last->second, instant.superframe) > 0;
 }
 
-bool SuperframeClock::learn(const Instant& instant) {
-  if (has_key_ && counted(newest_->superframe, instant.superframe) <= 0) return false;
-  bool follows = false;
-  if (refused_ && in_phase(*refused_, instant)) {
-    const std::int32_t ahead = counted(refused_->superframe, instant.superframe);
-    follows = ahead > 0 || (ahead == 0 && instant.slot > refused_->slot);
+void SuperframeClock::Phase::add(const Instant& instant) {
+  newest = instant;
+  heard.push_back(instant.stamp);
+  if (heard.size() > kFramesToStand) heard.pop_front();
+}
+
+/// Its last frames, or its first, are a minute old.
+bool SuperframeClock::Phase::is_old(Stamp now) const { return elapsed_s(heard.front(), now) > kStands_s; }
+
+bool SuperframeClock::Phase::stands(Stamp now) const { return heard.size() == kFramesToStand && !is_old(now); }
+
+/// The phase that the frame continues, else its own.
+SuperframeClock::Phase& SuperframeClock::other_phase(const Instant& instant) {
+  const auto continued = std::find_if(others_.begin(), others_.end(), [&](const Phase& phase) {
+    const std::int32_t ahead = counted(phase.newest.superframe, instant.superframe);
+    return in_phase(phase.newest, instant) && (ahead > 0 || (ahead == 0 && instant.slot > phase.newest.slot));
+  });
+  if (continued != others_.end()) {
+    std::rotate(continued, continued + 1, others_.end());
+  } else {
+    if (others_.size() == kMostPhases) others_.erase(others_.begin());
+    others_.push_back({instant, {}});
   }
-  refused_run_ = follows ? refused_run_ + 1 : 1;
-  refused_ = instant;
-  return refused_run_ >= kFramesToLearn;
+  others_.back().add(instant);
+  return others_.back();
+}
+
+bool SuperframeClock::believes(const Phase& other, double late_s, Stamp now) const {
+  if (!has_key_) return other.stands(now);
+  return late_s < 0 ? other.stands(now) || !in_force_->stands(now) : other.stands(now) && in_force_->is_old(now);
 }
 
 void SuperframeClock::take(const Instant& instant, BeaconId beacon) {
-  if (!newest_ || instant.stamp > newest_->stamp) newest_ = instant;
+  if (!in_force_) in_force_ = Phase{instant, {}};
+  const Instant newest = instant.stamp > in_force_->newest.stamp ? instant : in_force_->newest;
+  in_force_->add(instant);
+  in_force_->newest = newest;
   superframes_[beacon] = instant.superframe;
-  refused_.reset();
+  if (!has_key_) others_.clear();
 }
 
 std::optional<IrDrop> SuperframeClock::accept(const Announcement& announcement) {
   const Instant instant = instant_of(announcement);
-  const bool old = newest_ && elapsed_s(newest_->stamp, instant.stamp) < -superframe_s_;
-  if (newest_ && !in_phase(*newest_, instant)) {
-    const double late = late_s(*newest_, instant);
-    const bool early = has_key_ && late < 0;
-    if (!early && !learn(instant)) {
+  const bool old = in_force_ && elapsed_s(in_force_->newest.stamp, instant.stamp) < -superframe_s_;
+  if (in_force_ && !in_phase(in_force_->newest, instant)) {
+    const double late = late_s(in_force_->newest, instant);
+    Phase& other = other_phase(instant);
+    if (!believes(other, late, instant.stamp)) {
       if (old) return IrDrop::kStamp;
       const bool in_superframe = std::abs(late) < superframe_s_ && advances(instant, announcement.beacon);
       return in_superframe ? IrDrop::kSlot : IrDrop::kSuperframe;
     }
-    if (early) {
-      newest_.reset();
-      ++corrections_;
-    } else {
-      reset();
-    }
-  } else if (old) {
-    return IrDrop::kStamp;
+    if (has_key_ && late < 0) ++corrections_;
+    std::swap(*in_force_, other);
+    superframes_.clear();
+    superframes_[announcement.beacon] = instant.superframe;
+    if (!has_key_) others_.clear();
+    return std::nullopt;
   }
+  if (old) return IrDrop::kStamp;
   if (!advances(instant, announcement.beacon)) return IrDrop::kSuperframe;
   take(instant, announcement.beacon);
   return std::nullopt;
 }
 
 void SuperframeClock::reset() {
-  newest_.reset();
+  in_force_.reset();
   superframes_.clear();
-  refused_.reset();
+  others_.clear();
 }
 
 }  // namespace lodestar

@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "lodestar/BeaconConfirmation.h"
@@ -17,7 +18,9 @@ namespace lodestar {
 /// Beacons of the site file that somebody has confirmed where they say that they hang, and the topic that tells it,
 /// `beacons/confirmed`: each node that starts later is told then. Kept in a file, they outlive this node too, each
 /// until the site file is changed for it. Whom the filter finds out afterwards, by `beacons/distrusted`, is no longer
-/// one of them: which came first is told by the time of each, whatever starts when.
+/// one of them: which came first is told by the time of each, whatever starts when. While a beacon contradicts what was
+/// confirmed, the confirmation is neither told nor kept; it is again where the table takes that conflict back, for a
+/// stranger's recording made it.
 class Confirmations {
  public:
   /// @param memory path of that file; empty: none
@@ -26,8 +29,8 @@ class Confirmations {
   void load_into(BeaconTable& table);
   /// Somebody confirms it now.
   void add(const Announcement& announcement, Stamp now);
-  /// The beacon contradicts again what was confirmed.
-  void forget(BeaconId id);
+  /// Which beacons the table leaves out now.
+  void follow(const BeaconTable& table);
 
   /// What went wrong last with the file; empty: nothing.
   const std::string& fault() const { return file_.fault(); }
@@ -39,6 +42,7 @@ class Confirmations {
   };
   const Beacon* in_site(BeaconId id) const;
   BeaconConfirmation message(const Confirmation& confirmation) const;
+  void forget(BeaconId id);
   void take_distrusted(const DistrustedBeaconArray& distrusted);
   std::map<BeaconId, Confirmation> read(const std::string& text) const;
   void save();
@@ -46,6 +50,8 @@ class Confirmations {
   const Site& site_;
   MemoryFile file_;
   std::map<BeaconId, Confirmation> confirmed_;
+  std::set<BeaconId> left_out_;           ///< of the site file's, by the table
+  std::uint64_t revision_ = 0;            ///< of the table that was followed
   std::map<BeaconId, Stamp> distrusted_;  ///< since when
   ros::Publisher publisher_;
   ros::Subscriber distrusted_input_;

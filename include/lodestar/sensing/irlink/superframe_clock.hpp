@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "lodestar/base/common/ids.hpp"
 #include "lodestar/base/measurement/announcement.hpp"
@@ -18,17 +20,18 @@ namespace lodestar {
 ///   kSlot, by more kSuperframe.
 /// - A beacon's own counter grows: the same frame twice is kSuperframe.
 /// - A frame older than the newest by more than one superframe is kStamp.
-/// - A clock that was set, or beacons that were started anew: five refused frames in a row that are in phase with one
-///   another (none accepted in between) are the new phase; the fifth is accepted. On a site with a key the counter
-///   must lie ahead of the newest, too: old frames cannot be replayed there, however many.
-/// - On a site with a key a frame that comes before its time is true at once: a stranger can only send late what
-/// beacons
-///   have sent before. It was the phase that was late, as a stranger's first word made it.
+/// - Frames out of phase make phases of their own, which *stand* with five frames within a minute. Without a key one
+///   that stands before another frame is accepted is the new phase: a clock was set, or beacons were started anew.
+/// - On a site with a key a stranger can only send late what beacons have sent before. So an earlier phase is true as
+///   soon as it stands, and at once where the one in force does not; a later one only where it stands and the one in
+///   force has not for a minute, as when beacons count from 0 again. Nobody's single recording does either.
 ///
 /// The counter wraps around at 2^32.
 class SuperframeClock {
  public:
-  static constexpr int kFramesToLearn = 5;
+  static constexpr std::size_t kFramesToStand = 5;
+  static constexpr double kStands_s = 60;
+  static constexpr std::size_t kMostPhases = 64;  ///< beyond it the one heard least lately is forgotten
 
   explicit SuperframeClock(const Link& link);
 
@@ -51,19 +54,28 @@ class SuperframeClock {
     std::uint32_t superframe;
     int slot;
   };
+  /// Frames that are in phase with one another.
+  struct Phase {
+    Instant newest;
+    std::deque<Stamp> heard;  ///< the newest of them, at most kFramesToStand
+
+    void add(const Instant& instant);
+    bool is_old(Stamp now) const;
+    bool stands(Stamp now) const;
+  };
   static Instant instant_of(const Announcement& announcement);
   double late_s(const Instant& reference, const Instant& instant) const;
   bool in_phase(const Instant& reference, const Instant& instant) const;
   bool advances(const Instant& instant, BeaconId beacon) const;
-  bool learn(const Instant& instant);
+  Phase& other_phase(const Instant& instant);
+  bool believes(const Phase& other, double late_s, Stamp now) const;
   void take(const Instant& instant, BeaconId beacon);
 
   double slot_s_, superframe_s_;
   bool has_key_;
-  std::optional<Instant> newest_;
-  std::map<BeaconId, std::uint32_t> superframes_;  ///< the last of each beacon
-  std::optional<Instant> refused_;                 ///< the last frame out of phase
-  int refused_run_ = 0;                            ///< how many of those are in phase with one another
+  std::optional<Phase> in_force_;
+  std::map<BeaconId, std::uint32_t> superframes_;  ///< the last of each beacon, in force
+  std::vector<Phase> others_;                      ///< ascending by when they were heard
   int corrections_ = 0;
 };
 

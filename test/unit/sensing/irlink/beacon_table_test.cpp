@@ -137,10 +137,13 @@ TEST(BeaconTable, a_conflict_that_a_true_frame_made_outlives_a_recording_of_the_
   site.link.key = std::array<std::uint8_t, 16>{1};
   BeaconTable table(site);
   EXPECT_EQ(table.accept(heard(1, 5, 1000, kPosition + Eigen::Vector3d(2, 0, 0))), IrDrop::kConflict);
-  for (std::uint32_t superframe = 6; superframe < 6 + SuperframeClock::kFramesToLearn; ++superframe)
+  for (std::uint32_t superframe = 6; superframe < 6 + SuperframeClock::kFramesToStand; ++superframe)
     table.accept(heard(1, superframe, 1060));
   EXPECT_GT(entry(table, 1).last->superframe, 5u) << "learnt: they are newer than all that was heard";
-  EXPECT_EQ(table.accept(heard(2, 100)), std::nullopt);
+  for (std::uint32_t superframe = 100; superframe + 1 < 100 + SuperframeClock::kFramesToStand; ++superframe)
+    EXPECT_NE(table.accept(heard(2, superframe)), std::nullopt);
+  EXPECT_EQ(table.accept(heard(2, 110)), std::nullopt);
+  EXPECT_FALSE(entry(table, 1).last) << "a recording";
   EXPECT_TRUE(entry(table, 1).conflict);
 }
 
