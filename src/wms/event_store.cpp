@@ -131,6 +131,15 @@ struct EventStore::Sql {
     return out;
   }
 
+  std::string frozen(const Row& row, const Freeze& freeze) {
+    const auto& [sequence, draft] = row.stored;
+    StoredDraft whole{sequence, draft, row.clock, {}};
+    if (row.corrects) whole.told = told_of_the_corrected(sequence);
+    std::string document = freeze(whole);
+    execute(freeze_event, document, signed_of(sequence));
+    return document;
+  }
+
   std::optional<std::string> meta(const std::string& key) {
     Statement get(database, "SELECT value FROM meta WHERE key = ?");
     get.bind(1, key);
@@ -234,7 +243,8 @@ Recorded EventStore::record(const PalletChange& change, const std::string& draft
   Recorded result = Recorded::kNew;
   const auto job = [&] { result = insert(change, draft, clock); };
   // Without ballast there is only the room that emptying the queue needs.
-  full_ = !keep_clock() || (!(sql_->ballast.hold() && run(job)) && !(make_room() && run(job)));
+  full_ =
+      !keep_clock() || (!(sql_->ballast.hold() && run(job)) && !(forget_history() && sql_->ballast.hold() && run(job)));
   if (full_) return Recorded::kFull;
   if (result == Recorded::kKnown) return result;
   ++last_;
@@ -267,30 +277,30 @@ void EventStore::forget_pallet(const std::string& id) {
   execute(sql_->drop_pallet, id);
 }
 
-/// History is the only thing that may go. @return whether there is a point in trying again
-bool EventStore::make_room() {
+/// What is acknowledged is the only thing that may go. @return whether any did
+bool EventStore::forget_history() {
   if (acknowledged_ == 0) return false;
   int forgotten = 0;
   const bool done = run_with_reserve([&] { forgotten = execute(sql_->forget_events, signed_of(acknowledged_)); });
-  return done && forgotten > 0 && sql_->ballast.hold();
+  return done && forgotten > 0;
 }
 
 std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
   const std::vector<Sql::Row> rows = checked([&] { return sql_->rows(first, most, params_.boot, clock_step_); });
   std::vector<StoredDocument> out;
   for (const Sql::Row& row : rows) out.push_back(row.stored);
-  if (std::all_of(rows.begin(), rows.end(), [](const Sql::Row& row) { return row.frozen; })) return out;
-  const bool done = run_with_reserve([&] {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].frozen) continue;
-      const auto& [sequence, draft] = rows[i].stored;
-      StoredDraft whole{sequence, draft, rows[i].clock, {}};
-      if (rows[i].corrects) whole.told = sql_->told_of_the_corrected(sequence);
-      out[i].document = freeze(whole);
-      execute(sql_->freeze_event, out[i].document, signed_of(sequence));
-    }
-  });
-  if (!done) out.clear();
+  const auto draft = std::find_if(rows.begin(), rows.end(), [](const Sql::Row& row) { return !row.frozen; });
+  const auto frozen = static_cast<std::size_t>(draft - rows.begin());
+  std::size_t ready = rows.size();
+  const auto freeze_them = [&] {
+    return run_with_reserve([&] {
+      for (std::size_t i = frozen; i < ready; ++i)
+        if (!rows[i].frozen) out[i].document = sql_->frozen(rows[i], freeze);
+    });
+  };
+  while (ready > frozen && !freeze_them() && !(forget_history() && freeze_them()))
+    ready = frozen + (ready - frozen) / 2;
+  out.resize(ready);
   return out;
 }
 
