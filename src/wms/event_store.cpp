@@ -65,6 +65,8 @@ SQLite::Database open_database(const std::string& path) {
   // fsync of a file that grew takes twice as long.
   database.exec("PRAGMA journal_size_limit = 8388608");
   migrate(database);
+  database.exec("PRAGMA temp_store = MEMORY");
+  database.exec("CREATE TEMP TABLE forgotten AS SELECT sequence, heard, stamp_ns, pallet FROM event LIMIT 0");
   require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
 }
@@ -179,9 +181,16 @@ struct EventStore::Sql {
       "(SELECT told.pallet FROM event AS told JOIN event AS correction ON told.heard = correction.corrects"
       " WHERE correction.sequence = ?1 AND told.sequence < ?1 ORDER BY told.sequence DESC LIMIT 1))"
       " ORDER BY sequence"};
-  /// Without its document a row is small, and still knows an event that is told again.
-  Statement forget_documents{
-      database, "UPDATE event SET document = '', frozen = 2 WHERE sequence BETWEEN ? AND ? AND frozen < 2"};
+  /// Without its document a row is small, and still knows an event that is told again. It is deleted and comes anew:
+  /// rows that shrink where they are give no page back. No step takes up more room than the one before gave.
+  Statement note_forgotten{database,
+                           "INSERT INTO forgotten SELECT sequence, heard, stamp_ns, pallet FROM event"
+                           " WHERE sequence BETWEEN ? AND ? AND frozen < 2"};
+  Statement drop_forgotten{database, "DELETE FROM event WHERE sequence IN(SELECT sequence FROM forgotten)"};
+  Statement keep_forgotten{database,
+                           "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, frozen)"
+                           " SELECT sequence, heard, stamp_ns, pallet, 0, '', 2 FROM forgotten"};
+  Statement clear_forgotten{database, "DELETE FROM forgotten"};
   Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
   Statement put_clock{database, "REPLACE INTO clock VALUES(?, ?, ?)"};
   Statement forget_clocks{database, "DELETE FROM clock WHERE boot <> ?"};
@@ -294,7 +303,12 @@ bool EventStore::forget_history() {
 /// @return how many documents went
 int EventStore::forget(std::uint64_t first, std::uint64_t last) {
   if (last > kRowsKept) execute(sql_->forget_events, signed_of(last - kRowsKept));
-  return execute(sql_->forget_documents, signed_of(first), signed_of(last));
+  const int forgotten = execute(sql_->note_forgotten, signed_of(first), signed_of(last));
+  if (forgotten == 0) return 0;
+  execute(sql_->drop_forgotten);
+  execute(sql_->keep_forgotten);
+  execute(sql_->clear_forgotten);
+  return forgotten;
 }
 
 std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
