@@ -85,7 +85,8 @@ class EventStore {
   Recorded record(const PalletChange& change, const std::string& draft, const WallClock& clock = {});
 
   /// Documents from sequence number `first` on. One that is handed over for the first time is frozen before: durable,
-  /// and the same octets ever after. Fewer than there are, or none, when there is no room to freeze them.
+  /// and the same octets ever after. Where there is no room to freeze them all, history goes; where that is not enough,
+  /// those that are frozen come, and as many more as find room.
   std::vector<StoredDocument> documents(std::uint64_t first, std::size_t most, const Freeze& freeze);
 
   /// The site has all up to `sequence`; numbers that are not ahead of acknowledged(), or beyond last(), change nothing.
@@ -110,7 +111,8 @@ class EventStore {
   Recorded insert(const PalletChange& change, const std::string& draft, const WallClock& clock);
   void put_pallet(const PalletChange& change);
   void forget_pallet(const std::string& id);
-  bool make_room();
+  bool forget_history();
+  int forget(std::uint64_t first, std::uint64_t last);
   template <class Job>
   bool run(Job job);
   template <class Job>
