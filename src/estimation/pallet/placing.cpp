@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lodestar/base/measurement/pose_limits.hpp"
+
 namespace lodestar {
 namespace {
 
 constexpr double kFloor_m = 0.1;       // what stands lower stands on the floor
 constexpr double kGap_m = 0.1;         // between pallets where a zone has no grid
 constexpr double kTouching_m2 = 0.01;  // of two pallets side by side, by the errors of their poses
-constexpr double kUnknown_m = 1000, kUnknown_rad = 10;
 
 }  // namespace
 
-void put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map) {
+bool put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map) {
+  if (!is_possible(pose.T_map_pallet, pose.covariance)) return false;
   pallet.T_map_pallet = pose.T_map_pallet;
   pallet.covariance = pose.covariance;
   const Eigen::Vector3d position = pose.T_map_pallet.translation();
@@ -26,12 +28,11 @@ void put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones,
   } else {
     pallet.level = position.z() > kFloor_m + 3 * std::sqrt(pose.covariance(2, 2)) ? 1 : 0;
   }
+  return true;
 }
 
 void put_anywhere(Pallet& pallet) {
-  Eigen::Matrix<double, 6, 1> sigma;
-  sigma << kUnknown_m, kUnknown_m, kUnknown_m, kUnknown_rad, kUnknown_rad, kUnknown_rad;
-  pallet.covariance = sigma.cwiseAbs2().asDiagonal();
+  pallet.covariance = kUnknownSigma * kUnknownSigma * Matrix6::Identity();
   pallet.zone.clear();
   pallet.level = 0;
 }
