@@ -43,6 +43,7 @@ std::vector<Place> free_places(const Zone& zone, const PalletSize& size, const P
     const FloorPolygon wanted = rectangle(place.position_map.head<2>(), place.yaw_rad, size.size_m);
     for (const Pallet* pallet : map.standing()) {
       const Eigen::Vector3d position = pallet->T_map_pallet.translation();
+      if (position.z() < zone.bottom_m - kFloor_m || position.z() > zone.top_m) continue;
       if (nearest_level(zone, position.z()) != nearest_level(zone, place.position_map.z())) continue;
       const FloorPolygon standing = rectangle(position.head<2>(), roll_pitch_yaw(pallet->T_map_pallet.linear()).yaw_rad,
                                               map.size(pallet->type).size_m);
