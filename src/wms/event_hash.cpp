@@ -163,6 +163,22 @@ std::string extensions(const json& object, const json& namespaces) {
   return sorted_and_joined(std::move(parts));
 }
 
+/// What the user added to sensor elements comes after all of them, under the names of the parts that it was added to.
+std::string sensor_extensions(const json& list, const json& namespaces) {
+  std::vector<std::string> parts;
+  for (const json& element : list) {
+    std::string part;
+    const auto add = [&](const std::string& name, const std::string& added) {
+      if (!added.empty()) part += name + added;
+    };
+    if (element.contains("sensorMetadata")) add("sensorMetadata", extensions(element["sensorMetadata"], namespaces));
+    for (const json& report : element.at("sensorReport")) add("sensorReport", extensions(report, namespaces));
+    add("", extensions(element, namespaces));
+    if (!part.empty()) parts.push_back("sensorElement" + part);
+  }
+  return sorted_and_joined(std::move(parts));
+}
+
 std::string sha256_hex(const std::string& text) {
   std::array<unsigned char, crypto_hash_sha256_BYTES> digest;
   crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(text.data()), text.size());
@@ -176,7 +192,10 @@ std::string event_pre_hash(const json& event, const json& namespaces) {
   std::string out = "eventType=" + event.at("type").get<std::string>();
   for (const char* name : kEvent)
     if (event.contains(name)) out += property(name, event[name]);
-  if (event.contains("sensorElementList")) out += sensor_elements(event["sensorElementList"]);
+  if (event.contains("sensorElementList")) {
+    out += sensor_elements(event["sensorElementList"]);
+    out += sensor_extensions(event["sensorElementList"], namespaces);
+  }
   return out + extensions(event, namespaces);
 }
 

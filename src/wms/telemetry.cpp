@@ -1,11 +1,14 @@
 #include "lodestar/wms/telemetry.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lodestar {
 namespace {
 
 constexpr Duration kPoseStale = std::chrono::seconds(2), kBatteryStale = std::chrono::minutes(1);
 constexpr Duration kJudgeMotion = std::chrono::milliseconds(300);
-constexpr double kDriving_m_s = 0.05;
+constexpr double kDriving_m_s = 0.05, kTurning_rad_s = 0.05;
 
 bool due_again(const std::optional<Instant>& sent, Instant now, double period_s) {
   return !sent || now - *sent >= from_seconds(period_s);
@@ -19,8 +22,12 @@ void Telemetry::take_pose(const PoseEstimate& pose, Instant now) {
   if (!moved_from_ || pose.stamp < moved_from_->stamp) moved_from_ = pose;
   const Duration since = pose.stamp - moved_from_->stamp;
   if (since < kJudgeMotion) return;
-  const double distance_m = (pose.T_map_base.translation() - moved_from_->T_map_base.translation()).head<2>().norm();
-  truck_.driving = distance_m > kDriving_m_s * seconds(since);
+  const RigidTransform T_from_base = moved_from_->T_map_base.inverse() * pose.T_map_base;
+  const double distance_m = T_from_base.translation().head<2>().norm();
+  const double angle_rad = std::abs(so3_log(T_from_base.linear()).z());
+  const bool driving = distance_m > kDriving_m_s * seconds(since) || angle_rad > kTurning_rad_s * seconds(since);
+  changed_ |= driving != truck_.driving;
+  truck_.driving = driving;
   moved_from_ = pose;
 }
 

@@ -125,7 +125,8 @@ MqttMessage Vda5050::factsheet(Stamp now) {
   message["typeSpecification"] = {
       {"seriesName", truck.series},       {"agvKinematic", "THREEWHEEL"},       {"agvClass", "FORKLIFT"},
       {"maxLoadMass", truck.max_load_kg}, {"localizationTypes", {"REFLECTOR"}}, {"navigationTypes", json::array()}};
-  message["physicalParameters"] = {{"speedMin", -truck.speed_max_m_s},
+  // speedMin is the slowest speed that is held steadily, not that of driving backwards; a driver creeps as he likes.
+  message["physicalParameters"] = {{"speedMin", 0.0},
                                    {"speedMax", truck.speed_max_m_s},
                                    {"accelerationMax", truck.acceleration_max_m_s2},
                                    {"decelerationMax", truck.deceleration_max_m_s2},

@@ -235,7 +235,13 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   correct.pose.position.y = 0.4;
   correct.reason = "moved by hand";
   EXPECT_FALSE(call<CorrectPallet>("/pallets/correct", correct).success) << "no sigma";
-  correct.position_sigma_m = correct.yaw_sigma_rad = 0.05;
+  correct.yaw_sigma_rad = 0.05;
+  correct.position_sigma_m = 1e200;
+  const auto refused = call<CorrectPallet>("/pallets/correct", correct);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("1e+200"), std::string::npos) << refused.message;
+  EXPECT_NE(refused.message.find("1000"), std::string::npos) << refused.message;
+  correct.position_sigma_m = 0.05;
   EXPECT_TRUE(call<CorrectPallet>("/pallets/correct", correct).success);
   EXPECT_EQ(event(7).kind, PalletEvent::CORRECTION);
   EXPECT_EQ(event(7).corrects, 6u);
@@ -291,6 +297,12 @@ TEST_F(PalletTracking, CountsBadInputAndGoesOn) {
   bad_load.fork_height_m = INFINITY;
   load_.publish(bad_load);
   EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 3));
+  bad_load.fork_height_m = 1e200;
+  load_.publish(bad_load);
+  bad_pose = pose_message_;
+  bad_pose.pose.pose.position.x = 1e305;
+  pose_.publish(bad_pose);
+  EXPECT_TRUE(dropped(name(MessageDrop::kRange), 2));
   bad_load = load_message_;
   bad_load.header.stamp = ros::Time();
   load_.publish(bad_load);

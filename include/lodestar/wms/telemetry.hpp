@@ -9,7 +9,7 @@
 namespace lodestar {
 
 /// Says which VDA 5050 message goes when: connection and factsheet as a connection begins, state each period and when
-/// loads or errors change, visualization each period.
+/// loads, errors or driving change, visualization each period.
 class Telemetry {
  public:
   explicit Telemetry(const VdaParams& params) : params_(params), messages_(params) {}

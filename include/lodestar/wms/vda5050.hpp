@@ -27,7 +27,7 @@ struct VdaParams {
   std::string manufacturer, serial;
   std::string map_id;          ///< the site's name
   double alert_limit_m = 0.5;  ///< a protection level so large makes the localization score 0
-  double state_period_s = 5;   ///< of state at least; a change of loads or errors is told at once
+  double state_period_s = 5;   ///< of state at least; a change of loads, errors or driving is told at once
   double visualization_period_s = 0.5;
   TruckData truck;
 };

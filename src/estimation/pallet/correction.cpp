@@ -1,5 +1,6 @@
 #include "lodestar/estimation/pallet/correction.hpp"
 
+#include "lodestar/base/measurement/pose_limits.hpp"
 #include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/estimation/pallet/placing.hpp"
 
@@ -21,6 +22,8 @@ std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrec
       return CorrectionFault::kSsccTaken;
   }
   if (!correction.type.empty() && map.find_size(correction.type) == nullptr) return CorrectionFault::kType;
+  if (correction.pose && !is_possible(correction.pose->T_map_pallet, correction.pose->covariance))
+    return CorrectionFault::kPose;
   if (map.carries(correction.id) && (correction.gone || correction.pose)) return CorrectionFault::kOnFork;
   return std::nullopt;
 }
@@ -39,6 +42,8 @@ const char* name(CorrectionFault fault) {
       return "another pallet has this sscc: give its id in same_as";
     case CorrectionFault::kType:
       return "the vehicle file has no such type";
+    case CorrectionFault::kPose:
+      return "the pose is farther than 10000 m from the map's origin, or its sigma above 1000 m or rad";
     case CorrectionFault::kOnFork:
       return "the fork carries this pallet: it has no other pose and is not gone";
   }

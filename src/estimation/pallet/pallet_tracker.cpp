@@ -201,11 +201,7 @@ void PalletTracker::pick(const LoadChange& change) {
   pallet.state = in_doubt ? PalletState::kUncertain : PalletState::kOnFork;
   pallet.changed = change.stamp;
   pallet.coasting = at && at->coasting;
-  if (at) {
-    put(pallet, pallet_on(at->fork, carried.seat), params_.zones, pallets());
-  } else {
-    put_anywhere(pallet);
-  }
+  if (!at || !put(pallet, pallet_on(at->fork, carried.seat), params_.zones, pallets())) put_anywhere(pallet);
   ledger_.write(PalletChangeKind::kPick, pallet, change.stamp, candidates);
   carry({carried});
   if (at) pick_riders(pose_of(pallet), pallet.type, change, *at);
@@ -251,15 +247,12 @@ void PalletTracker::set_down(const CarriedPallet& carried, Stamp stamp, const st
   Pallet pallet = last.pallet;
   pallet.changed = stamp;
   pallet.coasting = at && at->coasting;
-  if (at) {
-    put(pallet, pallet_on(at->fork, carried.seat), params_.zones, pallets());
-  } else {
-    put_anywhere(pallet);
-  }
+  const bool placed = at && put(pallet, pallet_on(at->fork, carried.seat), params_.zones, pallets());
+  if (!placed) put_anywhere(pallet);
   const Zone* zone = find_zone(params_.zones, pallet.zone);
-  pallet.state = zone != nullptr && zone->kind == ZoneKind::kDock      ? PalletState::kGone
-                 : !at || last.pallet.state == PalletState::kUncertain ? PalletState::kUncertain
-                                                                       : PalletState::kStanding;
+  pallet.state = zone != nullptr && zone->kind == ZoneKind::kDock          ? PalletState::kGone
+                 : !placed || last.pallet.state == PalletState::kUncertain ? PalletState::kUncertain
+                                                                           : PalletState::kStanding;
   ledger_.write(PalletChangeKind::kDrop, pallet, stamp, last.candidates);
 }
 

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lodestar/base/measurement/pose_limits.hpp"
+
 namespace lodestar {
 namespace {
 
 constexpr double kFloor_m = 0.1;       // what stands lower stands on the floor
 constexpr double kGap_m = 0.1;         // between pallets where a zone has no grid
 constexpr double kTouching_m2 = 0.01;  // of two pallets side by side, by the errors of their poses
-constexpr double kUnknown_m = 1000, kUnknown_rad = 10;
 
 }  // namespace
 
-void put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map) {
+bool put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map) {
+  if (!is_possible(pose.T_map_pallet, pose.covariance)) return false;
   pallet.T_map_pallet = pose.T_map_pallet;
   pallet.covariance = pose.covariance;
   const Eigen::Vector3d position = pose.T_map_pallet.translation();
@@ -26,12 +28,11 @@ void put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones,
   } else {
     pallet.level = position.z() > kFloor_m + 3 * std::sqrt(pose.covariance(2, 2)) ? 1 : 0;
   }
+  return true;
 }
 
 void put_anywhere(Pallet& pallet) {
-  Eigen::Matrix<double, 6, 1> sigma;
-  sigma << kUnknown_m, kUnknown_m, kUnknown_m, kUnknown_rad, kUnknown_rad, kUnknown_rad;
-  pallet.covariance = sigma.cwiseAbs2().asDiagonal();
+  pallet.covariance = kUnknownSigma * kUnknownSigma * Matrix6::Identity();
   pallet.zone.clear();
   pallet.level = 0;
 }
@@ -42,6 +43,7 @@ std::vector<Place> free_places(const Zone& zone, const PalletSize& size, const P
     const FloorPolygon wanted = rectangle(place.position_map.head<2>(), place.yaw_rad, size.size_m);
     for (const Pallet* pallet : map.standing()) {
       const Eigen::Vector3d position = pallet->T_map_pallet.translation();
+      if (position.z() < zone.bottom_m - kFloor_m || position.z() > zone.top_m) continue;
       if (nearest_level(zone, position.z()) != nearest_level(zone, place.position_map.z())) continue;
       const FloorPolygon standing = rectangle(position.head<2>(), roll_pitch_yaw(pallet->T_map_pallet.linear()).yaw_rad,
                                               map.size(pallet->type).size_m);

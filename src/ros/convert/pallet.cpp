@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lodestar/base/measurement/pose_limits.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/convert/transform.hpp"
 
@@ -13,11 +14,14 @@ namespace {
 
 using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
+constexpr double kLowestFork_m = -1, kHighestFork_m = 30;  // trucks lift to 18 m
+
 }  // namespace
 
 Result<LoadSample, MessageDrop> load_sample_from(const LoadState& message) {
   if (message.header.stamp.isZero()) return MessageDrop::kStamp;
   if (!std::isfinite(message.fork_height_m)) return MessageDrop::kNotFinite;
+  if (message.fork_height_m < kLowestFork_m || message.fork_height_m > kHighestFork_m) return MessageDrop::kRange;
   return LoadSample{stamp_from(message.header.stamp), message.fork_height_m, message.load_present != 0,
                     message.load_id};
 }
@@ -45,6 +49,7 @@ Result<Pallet, MessageDrop> pallet_from(const PalletEntry& message) {
   pallet.T_map_pallet = *T_map_pallet;
   pallet.covariance = Eigen::Map<const RowMajor6>(message.pose.covariance.data());
   if (!pallet.covariance.allFinite()) return MessageDrop::kNotFinite;
+  if (!is_possible(pallet.T_map_pallet, pallet.covariance)) return MessageDrop::kRange;
   pallet.level = message.level;
   pallet.zone = message.zone;
   pallet.coasting = message.coasting != 0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "lodestar/base/measurement/pose_limits.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/convert/transform.hpp"
 
@@ -39,6 +40,7 @@ Result<PoseEstimate, MessageDrop> pose_estimate_from(const geometry_msgs::PoseWi
   estimate.T_map_base = *T_map_base;
   estimate.covariance = Eigen::Map<const RowMajor6>(message.pose.covariance.data());
   if (!estimate.covariance.allFinite()) return MessageDrop::kNotFinite;
+  if (!is_possible(estimate.T_map_base, estimate.covariance)) return MessageDrop::kRange;
   return estimate;
 }
 

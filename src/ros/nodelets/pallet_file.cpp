@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "lodestar/PalletMemory.h"
+#include "lodestar/base/measurement/pose_limits.hpp"
+#include "lodestar/estimation/pallet/placing.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/transform.hpp"
 
@@ -32,8 +34,8 @@ std::optional<Seat> seat_from(const geometry_msgs::PoseWithCovariance& message) 
   seat.T_fork_pallet = *T_fork_pallet;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) seat.covariance(i, j) = message.covariance[cell(i, j)];
-  if (!seat.covariance.allFinite()) return std::nullopt;
-  return seat;
+  const bool possible = is_possible(seat.T_fork_pallet, Eigen::Map<const Matrix6>(message.covariance.data()));
+  return possible ? std::optional<Seat>(seat) : std::nullopt;
 }
 
 std::string checksum() { return ros::message_traits::MD5Sum<PalletMemory>::value(); }
@@ -58,18 +60,35 @@ std::optional<PalletMemory> unpacked(std::string text) {
   return memory;
 }
 
+geometry_msgs::PoseWithCovariance anywhere() {
+  Pallet pallet;
+  put_anywhere(pallet);
+  return pallet_message(pallet).pose;
+}
+
+/// A pose that cannot be loses no pallet: a person is asked where it is.
+Result<PalletChange, MessageDrop> kept_change(PalletEvent event, const std::string& map_frame) {
+  if (!pallet_from(event.pallet)) {
+    event.pallet.pose = anywhere();
+    event.pallet.zone.clear();
+    event.pallet.state = PalletEntry::UNCERTAIN;
+  }
+  return pallet_change_from(event, map_frame);
+}
+
 bool restore(PalletTracker& tracker, const PalletMemory& memory, const std::string& map_frame) {
   PalletTracker::Changes kept;
   for (const PalletEvent& event : memory.events) {
-    const auto change = pallet_change_from(event, map_frame);
+    const auto change = kept_change(event, map_frame);
     if (!change) return false;
     kept.push_back(*change);
   }
   std::vector<CarriedPallet> carried;
   for (std::size_t i = 0; i < memory.seats.size(); ++i) {
-    const auto seat = seat_from(memory.seats[i]);
+    auto seat = seat_from(memory.seats[i]);
+    if (!seat) seat = seat_from(anywhere());
     const auto is_it = [&](const PalletChange& change) { return change.pallet.id == memory.carried[i]; };
-    if (!seat || std::none_of(kept.begin(), kept.end(), is_it)) return false;
+    if (std::none_of(kept.begin(), kept.end(), is_it)) return false;
     carried.push_back({memory.carried[i], *seat});
   }
   tracker.restore(kept, carried);

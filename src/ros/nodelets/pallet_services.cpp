@@ -1,7 +1,8 @@
 #include "lodestar/ros/nodelets/pallet_services.hpp"
 
-#include <cmath>
+#include <sstream>
 
+#include "lodestar/base/measurement/pose_limits.hpp"
 #include "lodestar/estimation/pallet/placing.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
@@ -42,6 +43,8 @@ FloorPolygon polygon_from(const geometry_msgs::Polygon& message) {
   return polygon;
 }
 
+bool is_sigma(double sigma) { return sigma > 0 && sigma <= kUnknownSigma; }
+
 /// Empty, with the reason in `why`, where the request tells a pose or place that is none.
 std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& request, const std::vector<Zone>& zones,
                                                 std::string& why) {
@@ -63,8 +66,10 @@ std::optional<PalletCorrection> correction_from(const CorrectPallet::Request& re
     why = std::string("the pose is none: ") + name(told.error());
   } else if (!request.has_pose && !place) {
     why = "no zone's grid has the place '" + request.place + "'";
-  } else if (!(std::isfinite(m) && std::isfinite(rad) && m > 0 && rad > 0)) {
-    why = "position_sigma_m and yaw_sigma_rad have to be above 0";
+  } else if (!is_sigma(m) || !is_sigma(rad)) {
+    std::ostringstream text;
+    text << "position_sigma_m is " << m << ", yaw_sigma_rad " << rad << ": above 0 and at most " << kUnknownSigma;
+    why = text.str();
   }
   if (!why.empty()) return std::nullopt;
   PalletPose& pose = correction.pose.emplace();

@@ -54,6 +54,64 @@ TEST(EventHash, ParentAndChildren) {
             "ni:///sha-256;c941e6486c561c2be83c28dc228c150eaef9a6befb1015e6cc563982fb7414b6?ver=CBV2.0");
 }
 
+/// AssociationEvent_all_possible_fields. It spells the number 23 in a list as "23.0", which ours never do.
+TEST(EventHash, AnAssociationWithAllThatCanBeSaid) {
+  json event = json::parse(R"({
+    "type": "AssociationEvent", "eventTime": "2019-11-01T13:00:00.000Z", "eventTimeZoneOffset": "+01:00",
+    "parentID": "https://id.gs1.org/8003/04012345555554987",
+    "childEPCs": ["https://id.gs1.org/8004/400000112346", "https://id.gs1.org/8004/400000112345"],
+    "childQuantityList": [
+      {"epcClass": "https://id.gs1.org/01/04012345987652", "quantity": 10.0},
+      {"epcClass": "https://id.gs1.org/01/04012345123456/10/998877", "quantity": 200.5, "uom": "KGM"}],
+    "action": "ADD", "bizStep": "assembling", "disposition": "in_progress",
+    "readPoint": {"id": "https://id.gs1.org/414/4012345000016"},
+    "bizLocation": {"id": "https://id.gs1.org/414/0614141008889"},
+    "bizTransactionList": [
+      {"type": "po", "bizTransaction": "https://id.gs1.org/253/06141410000121618034"},
+      {"type": "pedigree", "bizTransaction": "https://id.gs1.org/8018/061414100000102534"}],
+    "sourceList": [
+      {"type": "location", "source": "https://id.gs1.org/414/4012345002256"},
+      {"type": "possessing_party", "source": "https://id.gs1.org/417/4012345002256"},
+      {"type": "owning_party", "source": "https://id.gs1.org/417/4012345002256"}],
+    "destinationList": [
+      {"type": "location", "destination": "https://id.gs1.org/414/0614141007776"},
+      {"type": "possessing_party", "destination": "https://id.gs1.org/417/0614141007776"},
+      {"type": "owning_party", "destination": "https://id.gs1.org/417/0614141007776"}],
+    "sensorElementList": [{
+      "sensorMetadata": {
+        "time": "2019-04-02T13:05:00.000Z", "deviceID": "https://id.gs1.org/8004/4000001111",
+        "deviceMetadata": "https://id.gs1.org/8004/4000001111", "rawData": "https://id.gs1.org/8004/401234599999",
+        "startTime": "2019-04-02T12:55:01.000Z", "endTime": "2019-04-02T13:55:00.000Z",
+        "dataProcessingMethod": "https://id.gs1.org/253/4012345000054987",
+        "bizRules": "https://id.gs1.org/253/4012345000054987", "ext1:someFurtherMetadata": "someText"},
+      "sensorReport": [{
+        "type": "Temperature", "microorganism": "https://www.ncbi.nlm.nih.gov/taxonomy/1126011",
+        "chemicalSubstance": "https://identifiers.org/inchikey:CZMRCDWAGMRECN-UGDNZRGBSA-N",
+        "time": "2019-07-19T13:00:00.000Z", "value": 26.0, "component": "example:x", "stringValue": "SomeString",
+        "booleanValue": true, "hexBinaryValue": "f0f0f0", "uriValue": "https://id.gs1.org/8004/4000001111",
+        "minValue": 26.0, "maxValue": 26.2, "meanValue": 13.2, "percRank": 50.0, "percValue": 12.7,
+        "deviceID": "https://id.gs1.org/8004/4000001111", "deviceMetadata": "https://id.gs1.org/8004/4000001111",
+        "rawData": "https://id.gs1.org/8004/401234599999",
+        "dataProcessingMethod": "https://id.gs1.org/253/4012345000054987", "uom": "CEL", "sDev": 0.1,
+        "ext1:someFurtherReportData": "someText"}]}]})");
+  const json added = json::parse(R"({
+    "ext1:default": "stringAsDefaultValue", "ext1:int": "10", "ext1:float": "20",
+    "ext1:time": "2013-06-08T14:58:56.591Z", "ext1:boolean": "true", "ext1:string": "string",
+    "ext1:object": {"ext2:string": "stringInObject", "ext2:array": ["11", "21", "stringInArrayInObject"],
+                    "ext2:object": {"ext3:string": "stringInObjectInObject"}},
+    "ext1:array": ["12", "22", "2013-06-08T14:58:56.591Z", "true", "stringInArray",
+                   {"ext1:object": {"ext2:int": "13", "ext2:string": "stringInObjectInArray",
+                                    "ext2:array": ["14", "23", "stringInArrayInObjectInArray"],
+                                    "ext2:object": {"ext3:string": "stringInObjectInObjectInArray"}}}]})");
+  event.update(added);
+  event["sensorElementList"][0].update(added);
+  const json namespaces = {
+      {"ext1", "http://example.com/ext1/"}, {"ext2", "http://example.com/ext2/"}, {"ext3", "http://example.com/ext3/"}};
+  EXPECT_EQ(event_hash_id(event, namespaces),
+            "ni:///sha-256;3dada0cdabe84618e9f0b842031159cb49534f487d5714cac9cfd647bf5f6c54?ver=CBV2.0")
+      << event_pre_hash(event, namespaces);
+}
+
 TEST(EventHash, QuantitiesAndTransactions) {
   const json event = json::parse(R"({
     "type": "TransactionEvent", "eventTime": "2019-10-21T12:58:56.591Z", "eventTimeZoneOffset": "+02:00",

@@ -30,6 +30,7 @@ enum class CorrectionFault {
   kSscc,           ///< not 18 digits with a right check digit
   kSsccTaken,      ///< another pallet has this label: say `same_as`
   kType,           ///< the vehicle file has no such size
+  kPose,           ///< nothing can stand there, or so unsurely (is_possible)
   kOnFork,         ///< the fork carries it: neither pose nor gone can be told
 };
 const char* name(CorrectionFault fault);

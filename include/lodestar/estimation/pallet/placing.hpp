@@ -8,10 +8,11 @@
 namespace lodestar {
 
 /// Puts the pallet where it was set down: pose, zone, and level. In a rack the level is the nearest of the zone's; else
-/// one above the pallet that stands below, and at least 1 where it is too high for the floor.
-void put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map);
+/// one above the pallet that stands below, and at least 1 where it is too high for the floor. False: nothing can stand
+/// there, and the pallet stays as it is.
+bool put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map);
 
-/// Puts it somewhere: where it was last, with a sigma of a kilometre, in no zone.
+/// Puts it somewhere: where it was last, with a sigma of a kilometre and any yaw, in no zone.
 void put_anywhere(Pallet& pallet);
 
 /// What is free in a storage zone for a pallet of this size: places of its grid, else what can be packed into it, that

@@ -14,10 +14,11 @@
 
 namespace lodestar {
 
+/// A fork lower than -1 m or higher than 30 m is kRange.
 Result<LoadSample, MessageDrop> load_sample_from(const LoadState& message);
 LoadState load_message(const LoadSample& sample, const std::string& fork_frame);
 
-/// A state or kind that the message does not know is kRange.
+/// A state or kind that the message does not know, and a pose that cannot be (is_possible), is kRange.
 Result<Pallet, MessageDrop> pallet_from(const PalletEntry& message);
 PalletEntry pallet_message(const Pallet& pallet);
 

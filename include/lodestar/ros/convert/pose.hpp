@@ -20,7 +20,8 @@ struct StampedPose {
 Result<StampedPose, MessageDrop> pose_from(const geometry_msgs::PoseStamped& message, const std::string& parent_frame);
 geometry_msgs::PoseStamped pose_message(const StampedPose& pose, const std::string& parent_frame);
 
-/// A pose with covariance; the frame has to be `map_frame`. What a message cannot say (beacons, velocity) is left out.
+/// A pose with covariance; the frame has to be `map_frame`. What a message cannot say (beacons, velocity) is left out;
+/// one that cannot be (is_possible) is kRange.
 Result<PoseEstimate, MessageDrop> pose_estimate_from(const geometry_msgs::PoseWithCovarianceStamped& message,
                                                      const std::string& map_frame);
 geometry_msgs::PoseWithCovarianceStamped pose_estimate_message(const PoseEstimate& estimate,

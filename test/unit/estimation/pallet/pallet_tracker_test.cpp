@@ -331,6 +331,8 @@ TEST(PalletTracker, refuses_corrections_that_cannot_be) {
   EXPECT_EQ(fault([](C& c) { c.sscc = "1"; }), CorrectionFault::kSscc);
   EXPECT_EQ(fault([](C& c) { c.sscc = PalletTruck::sscc(2); }), CorrectionFault::kSsccTaken);
   EXPECT_EQ(fault([](C& c) { c.type = "none"; }), CorrectionFault::kType);
+  EXPECT_EQ(fault([](C& c) { c.pose.emplace().T_map_pallet.translation().x() = 1e5; }), CorrectionFault::kPose);
+  EXPECT_EQ(fault([](C& c) { c.pose.emplace().covariance(0, 0) = INFINITY; }), CorrectionFault::kPose);
   truck.stand(0, 0);
   truck.lift();
   EXPECT_EQ(fault([](C& c) { c.gone = true; }), CorrectionFault::kOnFork);

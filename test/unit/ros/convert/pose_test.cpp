@@ -79,6 +79,13 @@ TEST(PoseWithCovariance, ComesBackOrIsRefused) {
   EXPECT_TRUE(back->T_map_base.isApprox(some_transform(), 1e-12));
   EXPECT_EQ(back->covariance, estimate.covariance);
 
+  auto far = message;
+  far.pose.pose.position.x = 1e305;
+  EXPECT_EQ(pose_estimate_from(far, "map").error(), MessageDrop::kRange);
+  far = message;
+  far.pose.covariance[0] = 1e7;
+  EXPECT_EQ(pose_estimate_from(far, "map").error(), MessageDrop::kRange);
+
   EXPECT_EQ(pose_estimate_from(message, "odom").error(), MessageDrop::kFrame);
   message.pose.covariance[35] = kNan;
   EXPECT_EQ(pose_estimate_from(message, "map").error(), MessageDrop::kNotFinite);
