@@ -73,7 +73,7 @@ class PoseFusion : public testing::Test {
   Inbox<PoseIntegrity> integrity_{nh_, "/pose/integrity"};
   Diagnostics diagnostics_{nh_};
   Inbox<DistrustedBeaconArray> distrusted_{nh_, "/beacons/distrusted"};
-  ros::Publisher confirmed_out_ = nh_.advertise<BeaconConfirmation>("/beacons/confirmed", 10);
+  ros::Publisher confirmed_out_ = nh_.advertise<BeaconConfirmation>("/beacons/confirmed", 200);
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
   ros::Publisher fix_out_ = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>("/beacons/fix", 10);
   tf2_ros::Buffer tf_;
@@ -88,19 +88,35 @@ TEST_F(PoseFusion, FollowsTheTruthAndOutlivesBadInput) {
   diagnostics_.forget(kNode);
 
   // Beacons that were left out before the node began are named, each until it is confirmed after it was found out.
-  std::ofstream(memory_) << "[{id: 13, since_ns: 5000000000}, {id: 14, since_ns: 5000000000}]";
+  const auto entry = [](std::uint32_t id) { return "{id: " + std::to_string(id) + ", since_ns: 5000000000}"; };
+  std::ofstream known(memory_);
+  known << '[' << entry(13) << ',' << entry(14);
+  constexpr std::uint32_t kFirst = 100, kBurst = 100;
+  for (std::uint32_t id = kFirst; id < kFirst + kBurst; ++id) known << ',' << entry(id);
+  known << ']' << std::flush;
   ASSERT_TRUE(load_nodelet(kNode, kType));
-  EXPECT_TRUE(left_out("13 14")) << diagnostics_.message(kNode);
-  ASSERT_TRUE(wait_for([&] { return !distrusted_.empty() && distrusted_.last().beacons.size() == 2; }));
+  const auto told_left_out = [&](std::size_t count) {
+    return wait_for([&] { return !distrusted_.empty() && distrusted_.last().beacons.size() == count; });
+  };
+  ASSERT_TRUE(told_left_out(2 + kBurst));
   EXPECT_EQ(distrusted_.last().beacons[0].beacon_id, 13u);
   EXPECT_EQ(distrusted_.last().beacons[0].since, ros::Time(5));
+  // A node that starts is told all of a site at once: none is lost.
   EXPECT_TRUE(wait_for([&] { return confirmed_out_.getNumSubscribers() > 0; }));
+  for (std::uint32_t id = kFirst; id < kFirst + kBurst; ++id) confirm(id, 6);
+  ASSERT_TRUE(told_left_out(2)) << distrusted_.last();
+  EXPECT_TRUE(left_out("13 14")) << diagnostics_.message(kNode);
+  // Told and written only when something changed: neither by an old word nor by one on a beacon in use.
+  const std::size_t told = distrusted_.size();
   confirm(13, 5);
+  confirm(11, 6);
   confirm(14, 6);
+  ASSERT_TRUE(told_left_out(1));
+  EXPECT_EQ(distrusted_.size(), told + 1);
   EXPECT_TRUE(left_out("13")) << diagnostics_.message(kNode);
   std::ifstream file(memory_);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  EXPECT_NE(text.find("\n[{id: 13, since_ns: 5000000000}]"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n[" + entry(13) + "]"), std::string::npos) << text;
   confirm(13, 6);
   EXPECT_TRUE(left_out("")) << diagnostics_.message(kNode);
   ASSERT_TRUE(player_.connected({"/camera/image_raw", "/camera/camera_info", "/imu/data", "/odom"}));
