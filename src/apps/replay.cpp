@@ -200,9 +200,9 @@ int replay(const po::variables_map& options) {
   Opening opening = read_opening(reader);
   const auto known_rate_hz = vehicle.camera_rate_hz ? vehicle.camera_rate_hz : opening.frame_rate_hz;
   if (!known_rate_hz) {
-    throw UserError(
-        bag_path + ": fewer than " + std::to_string(FrameRateEstimate::kFrames) +
-        " images on /camera/image_raw, too few to tell the camera's rate; give camera.rate_hz in --vehicle.");
+    throw UserError(bag_path + ": too few images on /camera/image_raw to tell the camera's rate (" +
+                    std::to_string(FrameRateEstimate::kFrames) +
+                    ", more where stamps tremble); give camera.rate_hz in --vehicle.");
   }
   const double rate_hz = *known_rate_hz;
   const Faults tones = check_tones(site, {rate_hz, vehicle.mains_hz, vehicle.window_frames}, site_path);

@@ -10,8 +10,10 @@ constexpr double kMaxEstimateAge_s = 1.0;
 
 }  // namespace
 
-DetectionStage::DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer)
-    : detector_(detector), namer_(namer) {}
+DetectionStage::DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer, double floor_z_m)
+    : detector_(detector), namer_(namer) {
+  T_map_base_unknown_.translation().z() = floor_z_m;
+}
 
 void DetectionStage::set_camera(const CameraMount& camera) {
   camera_ = camera;
@@ -46,7 +48,7 @@ std::optional<double> DetectionStage::plane_height(const RigidTransform& T_map_c
 
 Result<Sightings, FrameDrop> DetectionStage::process(const Image& image, Sightings reuse) {
   const auto pose = predicted(image.stamp);
-  const RigidTransform T_map_base = pose ? pose->T_map_base : RigidTransform::Identity();
+  const RigidTransform T_map_base = pose ? pose->T_map_base : T_map_base_unknown_;
   if (const auto height_m = plane_height(T_map_base * camera_.T_base_camera)) {
     detector_.set_plane_height(*height_m);
   }

@@ -1,9 +1,43 @@
 #include "lodestar/line/frame_rate.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 namespace lodestar {
+namespace {
+
+constexpr double kWholeNumber = 0.005;  ///< a rate so near to one is it
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+/// The slope of the line through the stamps over their numbers, once it is known well enough.
+std::optional<double> FrameRateEstimate::settled_period_s() const {
+  const auto count = static_cast<Eigen::Index>(stamps_.size());
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < stamps_.size(); ++i) intervals_s.push_back(seconds(stamps_[i] - stamps_[i - 1]));
+  const double usual_s = median(intervals_s);
+  Eigen::ArrayXd number(count), time_s(count);
+  number[0] = time_s[0] = 0;
+  for (Eigen::Index i = 1; i < count; ++i) {
+    const double interval_s = intervals_s[static_cast<std::size_t>(i - 1)];
+    number[i] = number[i - 1] + std::max(1.0, std::round(interval_s / usual_s));
+    time_s[i] = time_s[i - 1] + interval_s;
+  }
+  number -= number.mean();
+  time_s -= time_s.mean();
+  const double spread2 = number.square().sum();
+  const double period_s = (number * time_s).sum() / spread2;
+  const double jitter2_s2 = (time_s - period_s * number).square().sum() / static_cast<double>(count - 2);
+  const bool settled = 3 * std::sqrt(jitter2_s2 / spread2) < kWholeNumber * period_s;
+  return settled || count == kMostFrames ? std::optional(period_s) : std::nullopt;
+}
 
 std::optional<double> FrameRateEstimate::add(Stamp stamp) {
   if (!stamps_.empty() && stamp <= stamps_.back()) {
@@ -12,18 +46,9 @@ std::optional<double> FrameRateEstimate::add(Stamp stamp) {
   }
   stamps_.push_back(stamp);
   if (static_cast<int>(stamps_.size()) < kFrames) return std::nullopt;
-
-  std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < stamps_.size(); ++i) intervals_s.push_back(seconds(stamps_[i] - stamps_[i - 1]));
-  auto sorted_s = intervals_s;
-  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
-  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
-  double periods = 0;
-  for (const double interval_s : intervals_s) periods += std::max(1.0, std::round(interval_s / *middle));
-
-  constexpr double kWholeNumber = 0.005;
-  const double rate_hz = periods / seconds(stamps_.back() - stamps_.front());
-  const double whole_hz = std::round(rate_hz);
+  const auto period_s = settled_period_s();
+  if (!period_s) return std::nullopt;
+  const double rate_hz = 1 / *period_s, whole_hz = std::round(rate_hz);
   return whole_hz > 0 && std::abs(rate_hz - whole_hz) < kWholeNumber * whole_hz ? whole_hz : rate_hz;
 }
 

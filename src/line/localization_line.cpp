@@ -11,7 +11,7 @@ LocalizationLine::LocalizationLine(const Site& site, const LineParams& params)
       decoder_(site.link, static_cast<int>(site.tone_table_hz.size())),
       table_(site),
       arrivals_(params.diodes, params.heard_for),
-      detection_(params.detector, params.namer),
+      detection_(params.detector, params.namer, params.solver.floor_z_m),
       pose_(params.solver, params.tilt, params.calibration_sigma_px),
       fusion_(params) {
   share_beacons();

@@ -20,7 +20,8 @@ namespace lodestar {
 /// Images in, named sightings out: the detector, the image motion that its window follows, and the names.
 class DetectionStage {
  public:
-  DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer);
+  /// @param floor_z_m in map; where base_link stands as long as no pose is known
+  DetectionStage(const BeaconDetectorParams& detector, const BeaconNamerParams& namer, double floor_z_m = 0);
 
   void set_camera(const CameraMount& camera);
 
@@ -57,6 +58,7 @@ class DetectionStage {
 
   BeaconDetector detector_;
   BeaconNamer namer_;
+  RigidTransform T_map_base_unknown_ = RigidTransform::Identity();  ///< level on the floor
   CameraMotion motion_;
   CameraMount camera_;
   std::vector<Beacon> beacons_;

@@ -77,7 +77,7 @@ void BeaconDetectionNodelet::make_stage() {
   params.detector.false_alarms_per_hour = config_.false_alarms_per_hour;
   params.detector.reader.code.margin_db = config_.code_margin_db;
   heard_for_ = params.heard_for;
-  stage_ = std::make_unique<DetectionStage>(params.detector, params.namer);
+  stage_ = std::make_unique<DetectionStage>(params.detector, params.namer, params.solver.floor_z_m);
   camera_revision_ = 0;
   contradicted_ = 0;
 }

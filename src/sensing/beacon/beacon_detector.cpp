@@ -186,14 +186,16 @@ Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const C
                                           : camera_motion.T_then_now(window_.at(window_.newest()).stamp, image.stamp));
   bank_.set(window_.newest(), image.stamp);
   choose_lags();
-  tracker_.predict(window_, motion_, !camera_motion.known());
+  const bool alone = !camera_motion.known(image.stamp);
+  tracker_.predict(window_, motion_, alone);
   const bool stands = !image_moves();
   scan_.push(image, stands);
+  const double most = image.bits == 8 ? 255 : 65535;
   const PixelNoise noise{scan_.pixel_variance(),
-                         static_cast<float>(params_.white_level.value_or(image.bits == 8 ? 255.0 : 65535.0))};
+                         static_cast<float>(std::min(params_.white_level.value_or(most), most))};
   // What was not used while the window filled up, or the image moved, is there for what waits.
   searches_left_ = std::min(searches_left_ + scan_.budget(), params_.window_frames * scan_.budget());
-  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, !camera_motion.known(), noise);
+  if (window_.size() > 1) tracker_.follow(window_, scan_.risen(), motion_, alone, noise);
 
   Sightings result = std::move(reuse);
   result.stamp = image.stamp;

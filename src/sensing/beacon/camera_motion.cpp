@@ -33,6 +33,10 @@ void CameraMotion::append(Rates& rates, Stamp stamp, const Eigen::Vector3d& valu
   rates.erase(rates.begin(), recent);
 }
 
+bool CameraMotion::heard(const Rates& rates, Stamp now) {
+  return !rates.empty() && seconds(now - rates.back().stamp) <= kSilent_s;
+}
+
 Eigen::Vector3d CameraMotion::rate_at(const Rates& rates, Stamp stamp) {
   if (rates.empty()) return Eigen::Vector3d::Zero();
   const auto after = std::lower_bound(rates.begin(), rates.end(), stamp,
@@ -47,7 +51,7 @@ Eigen::Vector3d CameraMotion::rate_at(const Rates& rates, Stamp stamp) {
 RigidTransform CameraMotion::T_base_before_base_after(Stamp before, Stamp after) const {
   const double interval_s = seconds(after - before);
   const Stamp middle = before + (after - before) / 2;
-  const Eigen::Vector3d turn = rate_at(angular_.empty() ? yaw_ : angular_, middle) * interval_s;
+  const Eigen::Vector3d turn = rate_at(heard(angular_, after) ? angular_ : yaw_, middle) * interval_s;
   RigidTransform T = RigidTransform::Identity();
   T.linear() = so3_exp(turn);
   T.translation() = so3_exp(0.5 * turn) * rate_at(linear_, middle) * interval_s;
@@ -56,7 +60,7 @@ RigidTransform CameraMotion::T_base_before_base_after(Stamp before, Stamp after)
 
 RigidTransform CameraMotion::T_then_now(Stamp then, Stamp now) const {
   constexpr double kMaxStep_s = 0.02;
-  if (!known()) return RigidTransform::Identity();
+  if (!known(now)) return RigidTransform::Identity();
   const auto steps = std::max<std::int64_t>(1, std::llround(std::ceil(seconds(now - then) / kMaxStep_s)));
   RigidTransform T_then_base_now = RigidTransform::Identity();
   for (std::int64_t i = 0; i < steps; ++i) {

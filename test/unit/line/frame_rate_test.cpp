@@ -24,6 +24,23 @@ TEST(FrameRateEstimate, WholeRatesAreExactDespiteJitterDriftAndALostFrame) {
   EXPECT_EQ(rate_of(25.002, 0.0004, -1), 25.0);
 }
 
+TEST(FrameRateEstimate, AFifthOfThePeriodOfJitterAndLostFramesDoNotHideTheRate) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> jitter(-0.2, 0.2), loss(0, 1);
+    FrameRateEstimate estimate;
+    std::optional<double> rate_hz;
+    int frames = 0;
+    for (int i = 0; i < 200 && !rate_hz; ++i) {
+      if (loss(random) < 0.1) continue;
+      rate_hz = estimate.add(Stamp{} + from_seconds(5 + (i + jitter(random)) / 60));
+      ++frames;
+    }
+    EXPECT_EQ(rate_hz, 60.0) << seed;
+    EXPECT_LE(frames, 50) << seed;
+  }
+}
+
 TEST(FrameRateEstimate, OtherRatesStayWhatTheyAre) { EXPECT_NEAR(*rate_of(7.5, 0.0001, -1), 7.5, 0.01); }
 
 TEST(FrameRateEstimate, AStampThatGoesBackStartsAnew) {

@@ -9,7 +9,8 @@
 namespace lodestar {
 
 /// How the camera moves: gyro and wheel odometry integrated between instants. Roll and pitch rates come from the gyro
-/// alone; without a gyro the yaw rate is the wheels'. What is newer than the newest sample is extrapolated with it.
+/// alone; without a gyro the yaw rate is the wheels'. What is newer than the newest sample is extrapolated with it, for
+/// kSilent_s: who is silent for longer is no longer heard, or a truck that stopped would go on for ever.
 class CameraMotion {
  public:
   /// @param buffer_s how far back motions can be asked for
@@ -22,11 +23,13 @@ class CameraMotion {
   void add_odometry(const OdometrySample& sample);
   void reset();
 
-  /// Whether anything says how the camera moves.
-  bool known() const { return !angular_.empty() || !yaw_.empty(); }
+  static constexpr double kSilent_s = 0.5;
+
+  /// Whether the wheels say how the camera moves up to now. A gyro alone does not: it knows of no way.
+  bool known(Stamp now) const { return heard(linear_, now); }
 
   /// Camera coordinates at `now` to camera coordinates at `then`, then <= now. Exactly the identity where nothing is
-  /// known of the motion (a camera alone).
+  /// known of the motion up to now (a camera alone).
   RigidTransform T_then_now(Stamp then, Stamp now) const;
 
  private:
@@ -36,6 +39,7 @@ class CameraMotion {
   };
   using Rates = std::vector<Rate>;  ///< oldest first; a few seconds of them, whose memory is kept
   static void append(Rates& rates, Stamp stamp, const Eigen::Vector3d& value, double buffer_s);
+  static bool heard(const Rates& rates, Stamp now);
   static Eigen::Vector3d rate_at(const Rates& rates, Stamp stamp);
   RigidTransform T_base_before_base_after(Stamp before, Stamp after) const;
 

@@ -33,6 +33,25 @@ struct Circle {
   }
 };
 
+TEST(CameraMotion, WheelsThatFellSilentAndAGyroAloneTellNoWay) {
+  const Circle circle;
+  CameraMotion motion;
+  circle.feed(motion, true);  // for a second
+  EXPECT_TRUE(motion.known(at(1.4)));
+  EXPECT_FALSE(motion.known(at(1.6)));
+  for (int i = 201; i <= 400; ++i) motion.add_imu({at(i * 0.005), {0, 0, 0.8}, {0, 0, 9.81}});
+  EXPECT_FALSE(motion.known(at(2.0)));
+  EXPECT_TRUE(motion.T_then_now(at(1.9), at(2.0)).isApprox(RigidTransform::Identity(), 0));
+}
+
+TEST(CameraMotion, AGyroThatFellSilentLeavesTheTurnToTheWheels) {
+  CameraMotion motion;
+  motion.set_mount(RigidTransform::Identity());
+  motion.add_imu({at(0), {0, 0, 0.8}, {0, 0, 9.81}});
+  for (int i = 0; i <= 100; ++i) motion.add_odometry({at(i * 0.02), {0, 0}, 0, Eigen::Vector3d::Zero(), 0});
+  EXPECT_TRUE(motion.T_then_now(at(1.8), at(2.0)).isApprox(RigidTransform::Identity(), 1e-12));
+}
+
 TEST(CameraMotion, FollowsACircle) {
   for (const bool gyro : {true, false}) {
     const Circle circle;
