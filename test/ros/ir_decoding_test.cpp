@@ -322,6 +322,7 @@ TEST_F(IrDecodingWithKey, ARecordingThatIsHeardFirstTakesNoConfirmationAway) {
   ASSERT_TRUE(wait_for([&] { return announcements_.size() == 1; }));
   EXPECT_FALSE(in_conflict(id));
   EXPECT_TRUE(kept(id));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "corrections") == 1; })) << "the operator is told";
   EXPECT_TRUE(wait_for([&] { return confirmed_.size() == told + 1; })) << "whoever started meanwhile has to know";
 }
 

@@ -67,6 +67,8 @@ class BeaconTable {
   const std::map<BeaconId, Entry>& entries() const { return entries_; }
   const DropCounts<IrDrop>& drops() const { return drops_; }
   std::uint64_t accepted() const { return accepted_; }
+  /// How often what was accepted before was found to be late: a recording.
+  int corrections() const { return clock_.corrections(); }
 
   /// Forgets superframe phase and ages, keeps positions (time went backwards).
   void reset_time();
