@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -322,7 +323,27 @@ TEST_F(IrDecodingWithKey, ARecordingThatIsHeardFirstTakesNoConfirmationAway) {
   ASSERT_TRUE(wait_for([&] { return announcements_.size() == 1; }));
   EXPECT_FALSE(in_conflict(id));
   EXPECT_TRUE(kept(id));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "corrections") == 1; })) << "the operator is told";
   EXPECT_TRUE(wait_for([&] { return confirmed_.size() == told + 1; })) << "whoever started meanwhile has to know";
+}
+
+TEST_F(IrDecodingWithKey, AMemoryThatIsNoListIsSetAsideAndTold) {
+  std::ofstream(memory_) << "hello, I am no list\n";
+  restart();
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.message(kNode).find("set aside") != std::string::npos; }));
+  EXPECT_EQ(text_of(memory_ + ".broken"), "hello, I am no list\n");
+
+  // One that was emptied by the node itself is a list.
+  hear(100, 0, 1.0);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 1; }));
+  ASSERT_TRUE(confirm(site_.beacons[0].id));
+  hear(101, 0, 2.0);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 2; }));
+  EXPECT_NE(text_of(memory_), "");
+  EXPECT_FALSE(kept(site_.beacons[0].id));
+  std::remove((memory_ + ".broken").c_str());
+  restart();
+  EXPECT_FALSE(std::ifstream(memory_ + ".broken").good());
 }
 
 }  // namespace

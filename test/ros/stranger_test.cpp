@@ -120,6 +120,12 @@ TEST_F(StrangerOnTheChannel, WhateverHeDoesIsToldAndMovesNoPose) {
   play(Trick::kOutshine, 1.5);
   EXPECT_TRUE(told("beacon_detection", "somebody outshines the beacons")) << diagnostics_.message("beacon_detection");
   expect_the_truth();
+
+  // From the start of the truck, with what he recorded the day before.
+  player_.rewind();
+  play(Trick::kYesterday, 1.5);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.count("ir_decoding", "corrections") > 0; }));
+  EXPECT_TRUE(refused(IrDrop::kSuperframe)) << diagnostics_.message("ir_decoding");
 }
 
 }  // namespace

@@ -74,8 +74,10 @@ const Beacon* Confirmations::in_site(BeaconId id) const {
 
 /// Those that still stand: the site file has not been brought up to date since.
 std::map<BeaconId, Confirmations::Confirmation> Confirmations::read(const std::string& text) const {
+  const YAML::Node list = YAML::Load(text);
+  if (!list.IsSequence()) throw std::invalid_argument("no list");
   std::map<BeaconId, Confirmation> out;
-  for (const YAML::Node& entry : YAML::Load(text)) {
+  for (const YAML::Node& entry : list) {
     Confirmation confirmation;
     confirmation.stamp = Stamp(Duration(entry["confirmed_ns"].as<std::int64_t>()));
     Announcement& a = confirmation.announcement;
@@ -133,12 +135,13 @@ void Confirmations::forget(BeaconId id) {
 void Confirmations::save() {
   if (!file_.kept()) return;
   std::ostringstream text;
-  text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n"
+  text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n["
        << std::setprecision(12);
+  const char* separator = "";
   for (const auto& [id, confirmation] : confirmed_) {
     if (left_out_.count(id) > 0) continue;
     const Announcement& a = confirmation.announcement;
-    text << "- {id: " << id << ", position_m: ";
+    text << std::exchange(separator, ",\n ") << "{id: " << id << ", position_m: ";
     write(text, a.position_map);
     text << ", tones: [";
     for (const int tone : a.tones.indices()) text << (tone == a.tones.indices().front() ? "" : ", ") << tone;
@@ -146,8 +149,9 @@ void Confirmations::save() {
          << ", stamp_ns: " << a.stamp.time_since_epoch().count()
          << ", confirmed_ns: " << confirmation.stamp.time_since_epoch().count() << ", site_position_m: ";
     write(text, in_site(id)->position_map);
-    text << "}\n";
+    text << '}';
   }
+  text << "]\n";
   file_.save(text.str());
 }
 

@@ -136,7 +136,8 @@ void IrDecodingNodelet::report(Health::Status& status) {
   report_drops(demodulator_->drops(), status);
   status.add("gaps in the samples", demodulator_->gaps());
   if (!confirmations_->fault().empty()) status.mergeSummary(Health::Status::ERROR, confirmations_->fault());
-  strangers_.report(table_->drops(), table_->accepted(), status);
+  status.add("corrections", table_->corrections());
+  strangers_.report(table_->drops(), table_->accepted(), table_->corrections(), status);
   status.add("beacons in force", table_->beacons().size());
   std::ostringstream conflicts;
   for (const auto& [id, entry] : table_->entries())

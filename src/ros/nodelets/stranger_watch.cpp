@@ -25,8 +25,8 @@ bool StrangerWatch::most_are_spoilt(const DropCounts<IrDrop>& drops, std::uint64
   return spoilt >= kFewestSpoilt && spoilt > sound;
 }
 
-void StrangerWatch::report(const DropCounts<IrDrop>& drops, std::uint64_t accepted, Health::Status& status,
-                           const ros::WallTime& now) {
+void StrangerWatch::report(const DropCounts<IrDrop>& drops, std::uint64_t accepted, int corrections,
+                           Health::Status& status, const ros::WallTime& now) {
   std::string seen;
   for (const IrDrop reason : kStrange)
     if (const std::uint64_t count = drops[reason] - drops_[reason])
@@ -34,9 +34,12 @@ void StrangerWatch::report(const DropCounts<IrDrop>& drops, std::uint64_t accept
               name(reason);
   drops_ = drops;
   if (!seen.empty()) strange_ = {seen, now};
+  if (corrections > corrections_)
+    believed_ = {"recorded frames were taken for true until earlier ones came, or the receiver's clock was late", now};
+  corrections_ = corrections;
   if (most_are_spoilt(drops, accepted, now))
     spoilt_channel_ = {"most frames are spoilt: the channel is jammed, or the diodes are dirty", now};
-  for (const Warning& warning : {strange_, spoilt_channel_})
+  for (const Warning& warning : {strange_, believed_, spoilt_channel_})
     if (!warning.text.empty() && (now - warning.since).toSec() <= kWarning_s)
       status.mergeSummary(Health::Status::WARN, warning.text);
 }

@@ -21,7 +21,7 @@ bool agree(const Eigen::Vector3d& position_map, ToneSet tones, double sigma_m, c
 
 }  // namespace
 
-BeaconTable::BeaconTable(const Site& site) : clock_(site.link) {
+BeaconTable::BeaconTable(const Site& site) : has_key_(site.link.key.has_value()), clock_(site.link) {
   for (const Beacon& beacon : site.beacons) {
     Entry& entry = entries_[beacon.id];
     entry.beacon = beacon;
@@ -42,7 +42,7 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
   const auto known = entries_.find(announcement.beacon);
   if (known == entries_.end()) {
     if (entries_.size() >= kMostBeacons) return IrDrop::kFull;
-  } else if (known->second.in_site_file && known->second.beacon.slot != announcement.slot) {
+  } else if (!has_key_ && known->second.in_site_file && known->second.beacon.slot != announcement.slot) {
     return IrDrop::kSlot;
   }
   const int corrections = clock_.corrections();
@@ -59,7 +59,8 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
 
 std::optional<IrDrop> BeaconTable::compare_with_site(Entry& entry, const Announcement& announcement) {
   const Beacon& beacon = entry.beacon;
-  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement)) contradict(entry, announcement);
+  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement) || beacon.slot != announcement.slot)
+    contradict(entry, announcement);
   if (entry.conflict) return IrDrop::kConflict;
   return std::nullopt;
 }

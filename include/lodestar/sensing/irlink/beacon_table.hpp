@@ -14,8 +14,10 @@ namespace lodestar {
 
 /// What is known of each beacon: from the site file, from its own announcements, or both.
 ///
-/// - In the site file: an announcement from another slot is dropped (kSlot). One that differs by more than 3 sigma on
-///   any axis of map (sigma: the file's sigma_m with the rounding to mm) or in its tones is a conflict: it is dropped
+/// - In the site file: without a key an announcement from another slot is dropped (kSlot). One that differs by more
+/// than
+///   3 sigma on any axis of map (sigma: the file's sigma_m with the rounding to mm), in its tones or, on a site with a
+///   key, in its slot, which is then the beacon's own word, is a conflict: it is dropped
 ///   and takes the beacon out of force until somebody confirms it, for a beacon that was moved or swapped once may hang
 ///   anywhere. The file's position is the one in use. On a site with a key a conflict that a recording made, heard
 ///   before the first true frame, is taken back with that frame; one that a true frame made stays.
@@ -67,6 +69,8 @@ class BeaconTable {
   const std::map<BeaconId, Entry>& entries() const { return entries_; }
   const DropCounts<IrDrop>& drops() const { return drops_; }
   std::uint64_t accepted() const { return accepted_; }
+  /// How often what was accepted before was found to be late: a recording.
+  int corrections() const { return clock_.corrections(); }
 
   /// Forgets superframe phase and ages, keeps positions (time went backwards).
   void reset_time();
@@ -83,6 +87,7 @@ class BeaconTable {
   std::map<BeaconId, Entry> entries_;
   DropCounts<IrDrop> drops_;
   std::uint64_t accepted_ = 0, revision_ = 0;
+  bool has_key_;
   SuperframeClock clock_;
 };
 

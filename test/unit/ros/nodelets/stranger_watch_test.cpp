@@ -15,9 +15,14 @@ class Channel {
     now_ += ros::WallDuration(1);
     Health::Status status;
     status.summary(Health::Status::OK, "");
-    watch_.report(drops_, accepted_, status, now_);
+    watch_.report(drops_, accepted_, corrections_, status, now_);
     EXPECT_EQ(status.level == Health::Status::WARN, !status.message.empty());
     return status.message;
+  }
+  /// The same, and the phase is found late.
+  std::string after_correction() {
+    ++corrections_;
+    return after(5, 0);
   }
   /// After how many seconds like this one it is called jammed; 60: it is not.
   int jammed_after(int sound, int spoilt, int every_s = 1) {
@@ -34,6 +39,7 @@ class Channel {
   StrangerWatch watch_{now_};
   DropCounts<IrDrop> drops_;
   std::uint64_t accepted_ = 0;
+  int corrections_ = 0;
 };
 
 TEST(StrangerWatch, a_jammer_is_told_however_few_beacons_are_heard) {
@@ -58,6 +64,16 @@ TEST(StrangerWatch, whatever_no_beacon_of_the_site_sends_is_named_for_ten_second
     for (int second = 0; second < 10; ++second) EXPECT_NE(channel.after(5, 0), "") << second;
     EXPECT_EQ(channel.after(5, 0), "");
   }
+}
+
+TEST(StrangerWatch, recordings_that_were_believed_are_told_for_ten_seconds) {
+  Channel channel;
+  EXPECT_EQ(channel.after(5, 0), "");
+  for (int second = 0; second <= 10; ++second) {
+    const std::string told = second == 0 ? channel.after_correction() : channel.after(5, 0);
+    EXPECT_NE(told.find("recorded frames were taken for true"), std::string::npos) << second;
+  }
+  EXPECT_EQ(channel.after(5, 0), "");
 }
 
 TEST(StrangerWatch, a_beacon_of_the_site_that_was_moved_is_no_stranger) {

@@ -172,7 +172,25 @@ TEST(BeaconTable, other_tones_than_the_files_are_a_conflict) {
   EXPECT_TRUE(entry(table, 1).conflict);
 }
 
-TEST(BeaconTable, another_slot_than_the_files_is_dropped_and_leaves_the_beacon_in_force) {
+TEST(BeaconTable, with_a_key_another_slot_than_the_files_is_a_conflict_and_can_be_confirmed) {
+  Site site = site_with_list();
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  BeaconTable table(site);
+  const auto in_slot_of_9 = [](std::uint32_t superframe) {
+    Announcement a = at(9, superframe, kPosition);
+    a.beacon = BeaconId{1};
+    a.tones = {1};
+    return a;
+  };
+  EXPECT_EQ(table.accept(in_slot_of_9(5)), IrDrop::kConflict);
+  EXPECT_TRUE(entry(table, 1).conflict);
+  EXPECT_TRUE(table.confirm(BeaconId{1}));
+  EXPECT_EQ(table.accept(in_slot_of_9(6)), std::nullopt);
+  EXPECT_EQ(table.beacons()[0].slot, 8);
+  EXPECT_EQ(table.accept(at(1, 7, kPosition)), IrDrop::kConflict);
+}
+
+TEST(BeaconTable, without_a_key_another_slot_than_the_files_is_dropped_and_leaves_the_beacon_in_force) {
   BeaconTable table(site_with_list());
   Announcement other = at(1, 5, kPosition);
   other.slot = 9;
