@@ -41,6 +41,10 @@ int execute(Statement& statement, const Values&... values) {
   return statement.exec();
 }
 
+/// So many rows are kept of events whose documents went. Pallet tracking tells its newest 500 again, and 1000 may wait
+/// on ROS.
+constexpr std::uint64_t kRowsKept = 2000;
+
 bool has_place(PalletState state) { return state == PalletState::kStanding || state == PalletState::kUncertain; }
 
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
@@ -61,6 +65,8 @@ SQLite::Database open_database(const std::string& path) {
   // fsync of a file that grew takes twice as long.
   database.exec("PRAGMA journal_size_limit = 8388608");
   migrate(database);
+  database.exec("PRAGMA temp_store = MEMORY");
+  database.exec("CREATE TEMP TABLE forgotten AS SELECT sequence, heard, stamp_ns, pallet FROM event LIMIT 0");
   require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
 }
@@ -165,7 +171,8 @@ struct EventStore::Sql {
   Statement get_events{database,
                        "SELECT sequence, document, frozen, corrects, synchronised,"
                        " clock_step_ns + CASE boot WHEN ?3 THEN ?4 ELSE IFNULL(step_ns, 0) END"
-                       " FROM event LEFT JOIN clock USING(boot) WHERE sequence >= ?1 ORDER BY sequence LIMIT ?2"};
+                       " FROM event LEFT JOIN clock USING(boot) WHERE sequence >= ?1 AND frozen < 2"
+                       " ORDER BY sequence LIMIT ?2"};
   Statement freeze_event{database, "UPDATE event SET document = ?, frozen = 1 WHERE sequence = ?"};
   Statement get_told{
       database,
@@ -174,9 +181,17 @@ struct EventStore::Sql {
       "(SELECT told.pallet FROM event AS told JOIN event AS correction ON told.heard = correction.corrects"
       " WHERE correction.sequence = ?1 AND told.sequence < ?1 ORDER BY told.sequence DESC LIMIT 1))"
       " ORDER BY sequence"};
-  /// But the newest: by it an event that is told again is known.
-  Statement forget_events{database,
-                          "DELETE FROM event WHERE sequence <= ? AND sequence < (SELECT MAX(sequence) FROM event)"};
+  /// Without its document a row is small, and still knows an event that is told again. It is deleted and comes anew:
+  /// rows that shrink where they are give no page back. No step takes up more room than the one before gave.
+  Statement note_forgotten{database,
+                           "INSERT INTO forgotten SELECT sequence, heard, stamp_ns, pallet FROM event"
+                           " WHERE sequence BETWEEN ? AND ? AND frozen < 2"};
+  Statement drop_forgotten{database, "DELETE FROM event WHERE sequence IN(SELECT sequence FROM forgotten)"};
+  Statement keep_forgotten{database,
+                           "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, frozen)"
+                           " SELECT sequence, heard, stamp_ns, pallet, 0, '', 2 FROM forgotten"};
+  Statement clear_forgotten{database, "DELETE FROM forgotten"};
+  Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
   Statement put_clock{database, "REPLACE INTO clock VALUES(?, ?, ?)"};
   Statement forget_clocks{database, "DELETE FROM clock WHERE boot <> ?"};
 };
@@ -281,8 +296,19 @@ void EventStore::forget_pallet(const std::string& id) {
 bool EventStore::forget_history() {
   if (acknowledged_ == 0) return false;
   int forgotten = 0;
-  const bool done = run_with_reserve([&] { forgotten = execute(sql_->forget_events, signed_of(acknowledged_)); });
+  const bool done = run_with_reserve([&] { forgotten = forget(0, acknowledged_); });
   return done && forgotten > 0;
+}
+
+/// @return how many documents went
+int EventStore::forget(std::uint64_t first, std::uint64_t last) {
+  if (last > kRowsKept) execute(sql_->forget_events, signed_of(last - kRowsKept));
+  const int forgotten = execute(sql_->note_forgotten, signed_of(first), signed_of(last));
+  if (forgotten == 0) return 0;
+  execute(sql_->drop_forgotten);
+  execute(sql_->keep_forgotten);
+  execute(sql_->clear_forgotten);
+  return forgotten;
 }
 
 std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
@@ -306,10 +332,12 @@ std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size
 
 bool EventStore::acknowledge(std::uint64_t sequence) {
   if (sequence <= acknowledged_ || sequence > last_) return true;
-  const std::uint64_t forgotten = sequence > params_.history ? sequence - params_.history : 0;
+  const auto outside_history = [this](std::uint64_t number) {
+    return std::max(number, params_.history) - params_.history;
+  };
   const bool done = run_with_reserve([&] {
     execute(sql_->put_meta, "acknowledged", std::to_string(sequence));
-    if (forgotten > 0) execute(sql_->forget_events, signed_of(forgotten));
+    forget(outside_history(acknowledged_), outside_history(sequence));
     if (sequence == last_) execute(sql_->forget_clocks, params_.boot);
   });
   if (!done) return false;

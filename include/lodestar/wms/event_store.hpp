@@ -112,6 +112,7 @@ class EventStore {
   void put_pallet(const PalletChange& change);
   void forget_pallet(const std::string& id);
   bool forget_history();
+  int forget(std::uint64_t first, std::uint64_t last);
   template <class Job>
   bool run(Job job);
   template <class Job>
