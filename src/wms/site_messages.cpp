@@ -32,6 +32,10 @@ json object_from(const std::string& text) {
   return object.is_object() ? object : json::object();
 }
 
+bool is_utf8(const std::string& text) {
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::ignore)) == text;
+}
+
 }  // namespace
 
 SiteTopics site_topics(const std::string& manufacturer, const std::string& serial) {
@@ -40,8 +44,10 @@ SiteTopics site_topics(const std::string& manufacturer, const std::string& seria
 }
 
 bool valid_topic_level(const std::string& text) {
-  const auto bad = [](char c) { return c == '/' || c == '+' || c == '#' || static_cast<unsigned char>(c) < 0x20; };
-  return !text.empty() && text.size() <= 64 && std::none_of(text.begin(), text.end(), bad);
+  const auto bad = [](char c) {
+    return c == '/' || c == '+' || c == '#' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  };
+  return !text.empty() && text.size() <= 64 && std::none_of(text.begin(), text.end(), bad) && is_utf8(text);
 }
 
 std::string message_text(const Acknowledgement& acknowledgement) {

@@ -411,6 +411,17 @@ TEST(BridgeParams, TheReferenceSystemIsAUri) {
     EXPECT_TRUE(refused(text)) << text.substr(0, 80);
 }
 
+TEST(BridgeParams, WhatStandsInATopicIsUtf8) {
+  BridgeParams params = test::bridge_params("/tmp/x");
+  const auto refused = [&](const std::string& text) {
+    params.vda.serial = text;
+    return told_wrong(params, "serial", text);
+  };
+  for (const char* text : {"truck7", "Z\xc3\xbcge 7", "\"7\\", "\xf0\x9f\x9a\x9a"}) EXPECT_FALSE(refused(text)) << text;
+  for (const char* text : {"", "a/b", "a+", "#", "a\nb", "a\x7f", "\xff\xfe", "a\xc3", "\xc0\xaf", "\xed\xa0\x80"})
+    EXPECT_TRUE(refused(text)) << text;
+}
+
 TEST(BridgeParams, TheVersionIsNumbersWithDotsBetween) {
   BridgeParams params = test::bridge_params("/tmp/x");
   const auto refused = [&](const std::string& text) {
