@@ -1,6 +1,6 @@
-// The store's process is killed (SIGKILL) as SQLite begins a statement, a different one each time; what was committed
-// must be whole when the store is opened again. A kill leaves the kernel's caches alone: that a fall of power is
-// survived too rests on SQLite's synchronous=FULL and a disk that does not lie.
+// The store's process is killed (SIGKILL) as SQLite begins or ends a statement, another in its run each time; what was
+// committed must be whole when the store is opened again. A kill leaves the kernel's caches alone: that a fall of power
+// is survived too rests on SQLite's synchronous=FULL and a disk that does not lie.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <set>
 
 #include "lodestar/wms/event_store.hpp"
 #include "support/pallet_changes.hpp"
@@ -88,12 +89,15 @@ TEST(StoreKill, AtAnyStatementNothingIsLostOrHalf) {
   params.boot = "boot";
   params.ballast_bytes = 4096;
   params.history = 5;
+  std::set<long> statements;
   for (int kill = 1; kill <= kKills; ++kill) {
     // Half of them into a new file: its making is a sequence of statements too.
     const bool anew = kill % 2 == 1;
     if (anew) params.path = folder / ("wms" + std::to_string(kill) + ".db");
     const std::uint64_t before = anew ? 0 : EventStore(params, uuid(901)).last();
-    const std::uint64_t durable = std::max(before, kill_at(params, 1 + kill * 7 % 150));
+    const long statement = 1 + kill * 7 % 211;
+    EXPECT_TRUE(statements.insert(statement).second) << statement << " comes again";
+    const std::uint64_t durable = std::max(before, kill_at(params, statement));
     EventStore store(params, uuid(901));
     ASSERT_GE(store.last(), durable) << "kill " << kill;
     ASSERT_LE(store.last(), durable + 1) << "kill " << kill;
