@@ -440,6 +440,38 @@ TEST_F(Store, AnOlderFileIsBroughtUpANewerOneIsLeftAlone) {
   EXPECT_FALSE(std::filesystem::exists(params().path + ".corrupt-1"));
 }
 
+TEST_F(Store, AQueueOfVersionTwoIsGoneOnWith) {
+  {
+    EventStore store(params(), kStream);
+    for (int n = 1; n <= 6; ++n) store.record(change(n), "d" + std::to_string(n));
+    store.documents(1, 4, freeze);
+    ASSERT_TRUE(store.acknowledge(3));
+  }
+  {
+    // As version 2 left it, which kept an event's own step of the clock alone.
+    SQLite::Database old(params().path, SQLite::OPEN_READWRITE);
+    old.exec("DROP INDEX event_pallet");
+    old.exec("DROP TABLE clock");
+    old.exec("ALTER TABLE event DROP COLUMN synchronised");
+    old.exec("UPDATE event SET clock_step_ns = 3600000000000 WHERE sequence = 5");
+    old.exec("PRAGMA user_version = 2");
+  }
+  EventStore store(params(), uuid(901));
+  EXPECT_EQ(store.stream(), kStream);
+  EXPECT_EQ(store.acknowledged(), 3u);
+  EXPECT_EQ(store.last_heard(), heard_event(change(6)));
+  const auto again = [](const StoredDraft& stored) { return freeze(stored) + " now"; };
+  std::vector<std::string> documents;
+  for (const auto& stored : store.documents(1, 50, again)) documents.push_back(stored.document);
+  EXPECT_EQ(documents, (std::vector<std::string>{"1:d1", "2:d2", "3:d3", "4:d4", "5:d5 stepped now", "6:d6 now"}));
+  const auto found = store.pallets_in({{0.4, 0, 0}, {1.6, 9, 9}});
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[2].zone, "A-3");
+  EXPECT_EQ(store.record(change(6), "d"), Recorded::kKnown);
+  EXPECT_EQ(store.record(change(7), "d"), Recorded::kNew);
+  EXPECT_EQ(store.last(), 7u);
+}
+
 TEST_F(Store, TextStaysText) {
   EventStore store(params(), kStream);
   PalletChange odd = change(2);
