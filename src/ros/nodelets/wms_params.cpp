@@ -82,6 +82,8 @@ WmsSetup read_wms_setup(ParamReader& params, const Site& site, const std::string
   bridge.outbox.resend_after = from_seconds(params.number("resend_after_s", 5, {0.1, 3600}));
   bridge.back_off.first = from_seconds(params.number("back_off_first_s", 0.5, {0.01, 3600}));
   bridge.back_off.at_most = from_seconds(params.number("back_off_at_most_s", 30, {0.01, 3600}));
+  bridge.silence.first = from_seconds(params.number("silence_s", 30, {1, 3600}));
+  bridge.silence.at_most = 20 * bridge.silence.first;
   bridge.clock_step = from_seconds(params.number("clock_step_s", 1, {0.01, 3600}));
   // The events' clock is then the simulation's or a bag's, which tells nothing of this machine's.
   if (ros::Time::isSimTime()) bridge.clock_step = Duration::max();

@@ -153,6 +153,64 @@ TEST_F(BridgeTest, OneOfTwoBrokersDies) {
   EXPECT_EQ(link_.on("/event").size(), 2u);
 }
 
+TEST_F(BridgeTest, WhereTheSiteDoesNotAnswerTheNextBrokerIsTried) {
+  params_.brokers = 2;
+  link_.working = {true, true};
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  time_s_ += 3600;
+  poll(bridge);
+  EXPECT_EQ(bridge.broker(), 0u) << "there is nothing to answer";
+  bridge.take(change(1), now());
+  poll(bridge);
+  time_s_ += 29;
+  poll(bridge, 3);
+  EXPECT_EQ(bridge.broker(), 0u);
+  time_s_ += 1;
+  poll(bridge, 3);
+  ASSERT_EQ(bridge.broker(), 1u);
+  EXPECT_TRUE(bridge.connected());
+  const auto connections = link_.on("/connection");
+  ASSERT_EQ(connections.size(), 3u);
+  EXPECT_EQ(json::parse(connections[1].payload)["connectionState"], "OFFLINE");
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->sequence, 1u);
+  // The site is slow, but answers.
+  for (int n = 2; n <= 9; ++n) {
+    bridge.take(change(n), now());
+    acknowledge(bridge, n - 1);
+    poll(bridge, 2);
+    time_s_ += 20;
+    poll(bridge, 2);
+  }
+  EXPECT_EQ(link_.tried, (std::vector<std::size_t>{0, 1}));
+}
+
+TEST_F(BridgeTest, ASiteThatForgotWhatItSaidIsToldWhereTheStreamIs) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  for (int n = 1; n <= 12; ++n) bridge.take(change(n), now());
+  poll(bridge);
+  acknowledge(bridge, 12);
+  poll(bridge, 2);
+  bridge.take(change(13), now());
+  poll(bridge, 2);
+  const std::size_t notices = link_.on("/stream").size(), events = link_.on("/event").size();
+  acknowledge(bridge, 3);
+  poll(bridge, 2);
+  EXPECT_FALSE(bridge.outbox().site_fell_back()) << "it may be a word that came late";
+  time_s_ += 2;
+  acknowledge(bridge, 3);
+  poll(bridge, 2);
+  EXPECT_EQ(bridge.outbox().site_fell_back(), 3u);
+  ASSERT_EQ(link_.on("/stream").size(), notices + 1);
+  EXPECT_EQ(stream_notice_from(link_.on("/stream").back().payload)->acknowledged, 12u);
+  ASSERT_EQ(link_.on("/event").size(), events + 1);
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->sequence, 13u);
+  acknowledge(bridge, 13);
+  poll(bridge, 2);
+  EXPECT_FALSE(bridge.outbox().site_fell_back());
+}
+
 TEST_F(BridgeTest, AnEventThatIsTakenTwiceIsRecordedOnce) {
   Bridge bridge(params_, link_, now());
   for (const int n : {2, 3, 6, 7, 7}) bridge.take(change(n), now());
