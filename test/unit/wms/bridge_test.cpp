@@ -304,6 +304,28 @@ TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsBeforeIt) {
   EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
 }
 
+TEST_F(BridgeTest, AClockThatIsSetChangesNoPeriod) {
+  const auto tried_and_told = [&](double jump_s) {
+    params_.store.path = folder_ / ("jump" + std::to_string(jump_s) + ".db");
+    time_s_ = wall_offset_s_ = 0;
+    link_ = FakeLink();
+    link_.working = {false};
+    Bridge bridge(params_, link_, now());
+    bridge.take(change(1), now());
+    for (const bool works : {false, true})
+      for (const double jump : {0.0, jump_s, -jump_s}) {
+        link_.working = {works};
+        wall_offset_s_ = jump;
+        poll(bridge, 500);
+      }
+    return std::vector<std::size_t>{link_.tried.size(), link_.on("/event").size(), link_.on("/state").size(),
+                                    link_.on("/visualization").size()};
+  };
+  const auto told = tried_and_told(0);
+  for (const std::size_t count : told) EXPECT_GT(count, 2u);
+  EXPECT_EQ(tried_and_told(86400), told);
+}
+
 TEST_F(BridgeTest, EventsBeforeTheFirstStepBearTheMarkThoughTheyWereHandedOver) {
   synchronised_ = false;
   Bridge bridge(params_, link_, now());
