@@ -3,6 +3,7 @@
 #include <ros/time.h>
 
 #include <fstream>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -62,6 +63,9 @@ MqttParams read_mqtt(ParamReader& params, const std::string& serial, const std::
   if (!password_file.empty()) mqtt.password = first_line(password_file);
   if (!password_file.empty() && mqtt.password.empty())
     params.add({{node + "/password_file", 0, "'" + password_file + "' cannot be read, or its first line is empty"}});
+  for (const auto& [key, path] :
+       {std::pair("ca_file", mqtt.ca_file), {"certificate_file", mqtt.certificate_file}, {"key_file", mqtt.key_file}})
+    if (!path.empty() && !std::ifstream(path)) params.add({{node + "/" + key, 0, "'" + path + "' cannot be read"}});
   for (const std::string& broker : mqtt.brokers)
     if (broker.compare(0, 6, "tcp://") != 0 && broker.compare(0, 6, "ssl://") != 0)
       params.add({{node + "/brokers", 0, "'" + broker + "' must begin with tcp:// or ssl://"}});
