@@ -16,7 +16,7 @@ Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading
     : params_(params),
       link_(link),
       topics_(site_topics(params.vda.manufacturer, params.vda.serial)),
-      brokers_(params.brokers, params.back_off),
+      brokers_(params.brokers, params.back_off, params.silence),
       telemetry_(params.vda),
       outbox_(params.outbox, "", 0, 0),
       clock_(std::nullopt, params.clock_step) {
@@ -106,6 +106,7 @@ void Bridge::poll(const ClockReading& now) {
     record_waiting();
   });
   telemetry_.set_outbox_full(!waiting_.empty());
+  leave_silence(now);
   if (const auto broker = brokers_.due(now.monotonic)) link_.connect(*broker, telemetry_.will(now.wall));
   if (!brokers_.is_up()) return;
   with_store(now, [&] { send_due(now); });
@@ -114,7 +115,7 @@ void Bridge::poll(const ClockReading& now) {
 
 void Bridge::handle(const LinkEvent& event, const ClockReading& now) {
   if (std::holds_alternative<LinkUp>(event)) {
-    brokers_.connected();
+    brokers_.connected(now.monotonic);
     ++connections_;
     greet(now);
   } else if (const auto* down = std::get_if<LinkDown>(&event)) {
@@ -122,15 +123,20 @@ void Bridge::handle(const LinkEvent& event, const ClockReading& now) {
     brokers_.down(now.monotonic);
     outbox_.disconnected();
   } else if (const auto* message = std::get_if<MqttMessage>(&event)) {
-    if (message->topic == topics_.ack) outbox_.take(message->payload, message->retained, now.monotonic);
+    if (message->topic != topics_.ack) return;
+    if (outbox_.take(message->payload, message->retained, now.monotonic)) brokers_.answered();
   }
+}
+
+void Bridge::tell_stream() {
+  const StreamNotice notice{store_->stream(), outbox_.acknowledged(), store_->last()};
+  link_.publish({topics_.stream, message_text(notice), 1, true});
 }
 
 /// What a broker hears first. Everything that is on its way counts as lost.
 void Bridge::greet(const ClockReading& now) {
   link_.subscribe(topics_.ack, 0);  // a later one says all that a lost one said
-  const StreamNotice notice{store_->stream(), store_->acknowledged(), store_->last()};
-  link_.publish({topics_.stream, message_text(notice), 1, true});
+  tell_stream();
   for (const MqttMessage& message : telemetry_.at_connect(now)) link_.publish(message);
   outbox_.connected(now.monotonic);
 }
@@ -141,12 +147,24 @@ void Bridge::send_due(const ClockReading& now) {
   const auto freeze = [&](const StoredDraft& stored) {
     return epcis_document(stored.draft, {store_->stream(), stored.sequence, now.wall, stored.clock, stored.told});
   };
+  // It takes none of them before it knows that those between are gone.
+  if (outbox_.site_fell_back()) tell_stream();
   Batch sent{due.first, 0};
   for (const StoredDocument& stored : store_->documents(due.first, due.count, freeze)) {
     if (!link_.publish({topics_.event, stored.document, 1, false})) break;
     ++sent.count;
   }
   outbox_.sent(sent, now.monotonic);
+}
+
+/// The site may listen at another broker.
+void Bridge::leave_silence(const ClockReading& now) {
+  const auto since = outbox_.unanswered_since();
+  if (!since || !brokers_.give_up(*since, now.monotonic)) return;
+  outbox_.disconnected();
+  last_failure_ = "the site does not answer there";
+  link_.publish(telemetry_.farewell(now.wall));
+  link_.disconnect();
 }
 
 void Bridge::shut_down(const ClockReading& now) {

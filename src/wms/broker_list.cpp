@@ -10,8 +10,9 @@ std::optional<std::size_t> BrokerList::due(Instant now) {
   return current_;
 }
 
-void BrokerList::connected() {
+void BrokerList::connected(Instant now) {
   state_ = State::kUp;
+  up_since_ = now;
   failures_ = 0;
   wait_ = back_off_.first;
 }
@@ -25,6 +26,15 @@ void BrokerList::down(Instant now) {
   if (++failures_ % count_ != 0) return;
   not_before_ = now + wait_;
   wait_ = std::min(2 * wait_, back_off_.at_most);
+}
+
+bool BrokerList::give_up(Instant unanswered_since, Instant now) {
+  if (count_ == 1 || state_ != State::kUp || now - std::max(unanswered_since, up_since_) < patience_) return false;
+  state_ = State::kIdle;
+  not_before_ = now;
+  current_ = (current_ + 1) % count_;
+  if (++silent_ % count_ == 0) patience_ = std::min(2 * patience_, silence_.at_most);
+  return true;
 }
 
 }  // namespace lodestar

@@ -55,6 +55,7 @@ void Outbox::sent(const Batch& batch, Instant now) {
   if (batch.count == 0) return;
   if (on_their_way() == 0) progress_ = now;
   next_ = batch.first + batch.count;
+  if (!unanswered_since_) unanswered_since_ = now;
 }
 
 bool Outbox::take(const std::string& message, bool retained, Instant now) {
@@ -62,16 +63,24 @@ bool Outbox::take(const std::string& message, bool retained, Instant now) {
   if (!ack) return drop(AckDrop::kMalformed);
   if (ack->stream != stream_) return drop(AckDrop::kOtherStream);
   if (ack->sequence > last_) return drop(AckDrop::kAhead);
-  if (ack->sequence < acknowledged_) return drop(AckDrop::kLate);
-  if (ack->sequence == acknowledged_) {
-    if (!retained && on_their_way() > 0 && now - progress_ >= kBetweenComplaints) go_back(now);
-    return drop(AckDrop::kRepeated);
+  if (ack->sequence <= acknowledged_) {
+    if (!retained) complain(ack->sequence, now);
+    return drop(ack->sequence == acknowledged_ ? AckDrop::kRepeated : AckDrop::kLate);
   }
   acknowledged_ = ack->sequence;
   next_ = std::max(next_, acknowledged_ + 1);
   progress_ = now;
   patience_ = params_.resend_after;
+  unanswered_since_ = on_their_way() > 0 ? std::optional(now) : std::nullopt;
+  site_fell_back_.reset();
   return true;
+}
+
+/// The site asks for what is on its way, and has been for a while.
+void Outbox::complain(std::uint64_t sequence, Instant now) {
+  if (on_their_way() == 0 || now - *unanswered_since_ < kBetweenComplaints) return;
+  site_fell_back_ = sequence < acknowledged_ ? std::optional(sequence) : std::nullopt;
+  if (now - progress_ >= kBetweenComplaints) go_back(now);
 }
 
 void Outbox::go_back(Instant now) {

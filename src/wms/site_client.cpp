@@ -17,7 +17,7 @@ SiteClient::SiteClient(MessageLink& link, std::size_t brokers, const BackOff& ba
 void SiteClient::poll(Instant now) {
   for (const LinkEvent& event : link_.take()) {
     if (std::holds_alternative<LinkUp>(event)) {
-      brokers_.connected();
+      brokers_.connected(now);
       // In this order: what is known of a stream comes before its events. No word between site and broker is needed
       // (QoS 0): what gets lost is not acknowledged, and comes again.
       for (const std::string& topic : {topics_.ack, topics_.stream, topics_.event}) link_.subscribe(topic, 0);

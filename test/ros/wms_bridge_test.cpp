@@ -419,18 +419,55 @@ TEST_F(WmsBridge, TellsTheTrucksState) {
   EXPECT_EQ(vda_heard_["state"]["errors"][0]["errorType"], "localizationLost");
 }
 
+TEST_F(WmsBridge, ShowsTheBrokerItsUserAndPassword) {
+  const std::string passwords = folder_ / "passwords", secret = folder_ / "secret";
+  ASSERT_EQ(std::system(("mosquitto_passwd -b -c " + passwords + " truck7 secret && chmod 755 " + folder_ / "." +
+                         " && chmod 644 " + passwords)
+                            .c_str()),
+            0);
+  const test::Broker asks("allow_anonymous false\npassword_file " + passwords);
+  std::ofstream(secret) << "secret\n";
+  ros::param::set("/wms_bridge/brokers", std::vector<std::string>{asks.uri()});
+  ros::param::set("/wms_bridge/user", "truck7");
+  ros::param::set("/wms_bridge/password_file", secret);
+  Node node(folder_ / "node.log");
+  EXPECT_TRUE(until([&] { return diagnostics_.value(kNode, "broker") == asks.uri(); })) << node.output();
+}
+
 TEST_F(WmsBridge, AWrongStartListsAllFaults) {
   ros::param::set("/wms_bridge/gln", "4012345000116");
   ros::param::set("/wms_bridge/serial", "truck/7");
   ros::param::set("/wms_bridge/brokers", "tcp://localhost");
   ros::param::set("/wms_bridge/window", 0);
   ros::param::set("/wms_bridge/no_such_thing", 1);
+  for (const char* key : {"password_file", "ca_file", "certificate_file", "key_file"})
+    ros::param::set(std::string("/wms_bridge/") + key, std::string("/no/such/") + key);
   Node node(folder_ / "node.log");
   const int status = node.join();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == EXIT_FAILURE);
   for (const char* fault : {"gln: is '4012345000116'", "serial: is 'truck/7'", "brokers: is a text, must be a list",
-                            "window: is 0, must be at least 1", "no_such_thing: is no parameter"})
+                            "window: is 0, must be at least 1", "no_such_thing: is no parameter",
+                            "/no/such/password_file' cannot be read", "/no/such/ca_file' cannot be read",
+                            "/no/such/certificate_file' cannot be read", "/no/such/key_file' cannot be read"})
     EXPECT_NE(node.output().find(fault), std::string::npos) << fault << " in\n" << node.output();
+}
+
+TEST(WmsBridgeConfig, WhatTheBrokerIsShownReachesTheLink) {
+  const test::TemporaryFolder folder;
+  ros::param::set("/shown/user", "truck7");
+  std::ofstream(folder / "password_file") << "secret\nanother line\n";
+  ros::param::set("/shown/password_file", folder / "password_file");
+  for (const std::string key : {"ca_file", "certificate_file", "key_file"}) {
+    std::ofstream(folder / key) << "PEM";
+    ros::param::set("/shown/" + key, folder / key);
+  }
+  ParamReader reader(ros::NodeHandle("/shown"));
+  const MqttParams mqtt = read_wms_setup(reader, Site(), "/shown").mqtt;
+  EXPECT_EQ(mqtt.user, "truck7");
+  EXPECT_EQ(mqtt.password, "secret");
+  EXPECT_EQ(mqtt.ca_file, folder / "ca_file");
+  EXPECT_EQ(mqtt.certificate_file, folder / "certificate_file");
+  EXPECT_EQ(mqtt.key_file, folder / "key_file");
 }
 
 TEST(WmsBridgeConfig, TheDemosIsWhole) {

@@ -22,9 +22,10 @@ struct BridgeParams {
   VdaParams vda;  ///< its manufacturer and serial name the truck in all topics
   OutboxParams outbox;
   BackOff back_off;
-  std::size_t brokers = 1;                ///< how many the link knows
-  Duration clock_step = from_seconds(1);  ///< a wall clock that moves by more was set
-  std::size_t most_in_memory = 10000;     ///< events that wait for room in the store
+  BackOff silence = {from_seconds(30), from_seconds(600)};  ///< of the site, until the next broker is tried
+  std::size_t brokers = 1;                                  ///< how many the link knows
+  Duration clock_step = from_seconds(1);                    ///< a wall clock that moves by more was set
+  std::size_t most_in_memory = 10000;                       ///< events that wait for room in the store
 };
 
 /// What the documents and topics cannot be made of; empty: nothing.
@@ -71,6 +72,7 @@ class Bridge {
   void watch_clock(const ClockReading& now);
   void handle(const LinkEvent& event, const ClockReading& now);
   void greet(const ClockReading& now);
+  void tell_stream();
   void record_waiting();
   struct Waiting {
     PalletChange change;
@@ -78,6 +80,7 @@ class Bridge {
   };
   bool record(const Waiting& waiting);
   void send_due(const ClockReading& now);
+  void leave_silence(const ClockReading& now);
   template <class Job>
   void with_store(const ClockReading& now, Job job);
 

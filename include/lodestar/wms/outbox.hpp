@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "lodestar/base/common/drop_counts.hpp"
@@ -56,9 +57,14 @@ class Outbox {
   std::uint64_t waiting() const { return last_ - acknowledged_; }  ///< not acknowledged
   std::uint64_t on_their_way() const { return next_ - 1 - acknowledged_; }
   std::uint64_t resends() const { return resends_; }
+  /// Since when the site has not moved anything of what was sent, over which connections ever; empty: nothing was sent.
+  std::optional<Instant> unanswered_since() const { return unanswered_since_; }
+  /// The site's last word, where it has less than it said before, as one that was restored from a backup.
+  std::optional<std::uint64_t> site_fell_back() const { return site_fell_back_; }
   const DropCounts<AckDrop>& drops() const { return drops_; }
 
  private:
+  void complain(std::uint64_t sequence, Instant now);
   void go_back(Instant now);
   bool drop(AckDrop reason);
 
@@ -68,6 +74,8 @@ class Outbox {
   std::uint64_t next_;  ///< to be sent
   bool connected_ = false;
   Instant progress_;  ///< when something last moved
+  std::optional<Instant> unanswered_since_;
+  std::optional<std::uint64_t> site_fell_back_;
   Duration patience_;
   std::uint64_t resends_ = 0;
   DropCounts<AckDrop> drops_;

@@ -20,6 +20,7 @@ namespace lodestar {
 namespace {
 
 constexpr double kPollPeriod_s = 0.01;
+constexpr Duration kSilenceIsLong = std::chrono::seconds(20);
 
 /// Unlike the steady clock it goes on while the computer sleeps, which would look like a wall clock that was set.
 Instant since_boot() {
@@ -179,6 +180,16 @@ void WmsBridgeNodelet::report_trouble(Health::Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   const Bridge& bridge = *bridge_;
   if (!bridge.connected()) status.mergeSummary(DiagnosticStatus::WARN, "no broker: " + bridge.last_failure());
+  const Outbox& outbox = bridge.outbox();
+  const auto unanswered = outbox.unanswered_since();
+  if (unanswered && clocks().monotonic - *unanswered >= kSilenceIsLong)
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "the site does not acknowledge: does it listen at this broker, and know the stream?");
+  if (outbox.site_fell_back())
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "the site has events up to " + std::to_string(*outbox.site_fell_back()) +
+                            " alone, and acknowledged " + std::to_string(outbox.acknowledged()) +
+                            " before: was it restored from a backup?");
   if (intake_.waiting() > 0)
     status.mergeSummary(DiagnosticStatus::WARN, "pallet tracking does not tell the events before the newest");
   if (intake_.counts().missed > 0)

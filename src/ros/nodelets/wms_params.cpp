@@ -3,6 +3,7 @@
 #include <ros/time.h>
 
 #include <fstream>
+#include <utility>
 
 namespace lodestar {
 namespace {
@@ -62,6 +63,9 @@ MqttParams read_mqtt(ParamReader& params, const std::string& serial, const std::
   if (!password_file.empty()) mqtt.password = first_line(password_file);
   if (!password_file.empty() && mqtt.password.empty())
     params.add({{node + "/password_file", 0, "'" + password_file + "' cannot be read, or its first line is empty"}});
+  for (const auto& [key, path] :
+       {std::pair("ca_file", mqtt.ca_file), {"certificate_file", mqtt.certificate_file}, {"key_file", mqtt.key_file}})
+    if (!path.empty() && !std::ifstream(path)) params.add({{node + "/" + key, 0, "'" + path + "' cannot be read"}});
   for (const std::string& broker : mqtt.brokers)
     if (broker.compare(0, 6, "tcp://") != 0 && broker.compare(0, 6, "ssl://") != 0)
       params.add({{node + "/brokers", 0, "'" + broker + "' must begin with tcp:// or ssl://"}});
@@ -82,6 +86,8 @@ WmsSetup read_wms_setup(ParamReader& params, const Site& site, const std::string
   bridge.outbox.resend_after = from_seconds(params.number("resend_after_s", 5, {0.1, 3600}));
   bridge.back_off.first = from_seconds(params.number("back_off_first_s", 0.5, {0.01, 3600}));
   bridge.back_off.at_most = from_seconds(params.number("back_off_at_most_s", 30, {0.01, 3600}));
+  bridge.silence.first = from_seconds(params.number("silence_s", 30, {1, 3600}));
+  bridge.silence.at_most = 20 * bridge.silence.first;
   bridge.clock_step = from_seconds(params.number("clock_step_s", 1, {0.01, 3600}));
   // The events' clock is then the simulation's or a bag's, which tells nothing of this machine's.
   if (ros::Time::isSimTime()) bridge.clock_step = Duration::max();

@@ -217,5 +217,28 @@ TEST_F(Trouble, OneOfTwoBrokersDiesWithEventsUnderWay) {
   EXPECT_GT(site_->client.repeated(), 0u) << "nothing was under way";
 }
 
+TEST_F(Trouble, TruckAndSiteAtDifferentBrokersMeet) {
+  params_.silence = {from_seconds(0.3), from_seconds(2)};
+  start(2);
+  site_ = std::make_unique<Site>(std::vector<std::string>{brokers_[1]->uri()});
+  take(1, 100);
+  ASSERT_TRUE(acknowledged(100)) << bridge_->last_failure();
+  EXPECT_EQ(bridge_->broker(), 1u);
+  site_->expect_all_once(100);
+}
+
+TEST_F(Trouble, ASiteThatWasRestoredFromABackupGoesOn) {
+  take(1, 12);
+  ASSERT_TRUE(acknowledged(12));
+  const std::string topic = site_topics("lodestar", "truck7").ack;
+  site_->link.publish({topic, message_text(Acknowledgement{bridge_->store().stream(), 3}), 1, true});
+  ASSERT_TRUE(run_until([&] { return bridge_->outbox().drops()[AckDrop::kLate] > 0; }, [&] { poll(); }, 10));
+  site_ = std::make_unique<Site>(std::vector<std::string>{brokers_[0]->uri()});
+  take(13, 14);
+  ASSERT_TRUE(acknowledged(14));
+  ASSERT_EQ(site_->documents.size(), 2u);
+  EXPECT_EQ(document_key_from(site_->documents[0])->sequence, 13u);
+}
+
 }  // namespace
 }  // namespace lodestar

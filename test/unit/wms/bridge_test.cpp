@@ -153,6 +153,64 @@ TEST_F(BridgeTest, OneOfTwoBrokersDies) {
   EXPECT_EQ(link_.on("/event").size(), 2u);
 }
 
+TEST_F(BridgeTest, WhereTheSiteDoesNotAnswerTheNextBrokerIsTried) {
+  params_.brokers = 2;
+  link_.working = {true, true};
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  time_s_ += 3600;
+  poll(bridge);
+  EXPECT_EQ(bridge.broker(), 0u) << "there is nothing to answer";
+  bridge.take(change(1), now());
+  poll(bridge);
+  time_s_ += 29;
+  poll(bridge, 3);
+  EXPECT_EQ(bridge.broker(), 0u);
+  time_s_ += 1;
+  poll(bridge, 3);
+  ASSERT_EQ(bridge.broker(), 1u);
+  EXPECT_TRUE(bridge.connected());
+  const auto connections = link_.on("/connection");
+  ASSERT_EQ(connections.size(), 3u);
+  EXPECT_EQ(json::parse(connections[1].payload)["connectionState"], "OFFLINE");
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->sequence, 1u);
+  // The site is slow, but answers.
+  for (int n = 2; n <= 9; ++n) {
+    bridge.take(change(n), now());
+    acknowledge(bridge, n - 1);
+    poll(bridge, 2);
+    time_s_ += 20;
+    poll(bridge, 2);
+  }
+  EXPECT_EQ(link_.tried, (std::vector<std::size_t>{0, 1}));
+}
+
+TEST_F(BridgeTest, ASiteThatForgotWhatItSaidIsToldWhereTheStreamIs) {
+  Bridge bridge(params_, link_, now());
+  poll(bridge, 2);
+  for (int n = 1; n <= 12; ++n) bridge.take(change(n), now());
+  poll(bridge);
+  acknowledge(bridge, 12);
+  poll(bridge, 2);
+  bridge.take(change(13), now());
+  poll(bridge, 2);
+  const std::size_t notices = link_.on("/stream").size(), events = link_.on("/event").size();
+  acknowledge(bridge, 3);
+  poll(bridge, 2);
+  EXPECT_FALSE(bridge.outbox().site_fell_back()) << "it may be a word that came late";
+  time_s_ += 2;
+  acknowledge(bridge, 3);
+  poll(bridge, 2);
+  EXPECT_EQ(bridge.outbox().site_fell_back(), 3u);
+  ASSERT_EQ(link_.on("/stream").size(), notices + 1);
+  EXPECT_EQ(stream_notice_from(link_.on("/stream").back().payload)->acknowledged, 12u);
+  ASSERT_EQ(link_.on("/event").size(), events + 1);
+  EXPECT_EQ(document_key_from(link_.on("/event").back().payload)->sequence, 13u);
+  acknowledge(bridge, 13);
+  poll(bridge, 2);
+  EXPECT_FALSE(bridge.outbox().site_fell_back());
+}
+
 TEST_F(BridgeTest, AnEventThatIsTakenTwiceIsRecordedOnce) {
   Bridge bridge(params_, link_, now());
   for (const int n : {2, 3, 6, 7, 7}) bridge.take(change(n), now());
@@ -244,6 +302,28 @@ TEST_F(BridgeTest, AClockThatIsSetMarksTheEventsBeforeIt) {
   EXPECT_EQ(before["lodestar:clock"], "unsynchronised");
   EXPECT_NEAR(before["lodestar:clockStep_s"].get<double>(), 3600, 0.1);
   EXPECT_FALSE(json::parse(events[1].payload)["epcisBody"]["eventList"][0].contains("lodestar:clock"));
+}
+
+TEST_F(BridgeTest, AClockThatIsSetChangesNoPeriod) {
+  const auto tried_and_told = [&](double jump_s) {
+    params_.store.path = folder_ / ("jump" + std::to_string(jump_s) + ".db");
+    time_s_ = wall_offset_s_ = 0;
+    link_ = FakeLink();
+    link_.working = {false};
+    Bridge bridge(params_, link_, now());
+    bridge.take(change(1), now());
+    for (const bool works : {false, true})
+      for (const double jump : {0.0, jump_s, -jump_s}) {
+        link_.working = {works};
+        wall_offset_s_ = jump;
+        poll(bridge, 500);
+      }
+    return std::vector<std::size_t>{link_.tried.size(), link_.on("/event").size(), link_.on("/state").size(),
+                                    link_.on("/visualization").size()};
+  };
+  const auto told = tried_and_told(0);
+  for (const std::size_t count : told) EXPECT_GT(count, 2u);
+  EXPECT_EQ(tried_and_told(86400), told);
 }
 
 TEST_F(BridgeTest, EventsBeforeTheFirstStepBearTheMarkThoughTheyWereHandedOver) {

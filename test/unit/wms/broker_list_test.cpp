@@ -31,14 +31,42 @@ TEST(BrokerList, OneAfterTheOtherThenAWaitThatDoubles) {
 TEST(BrokerList, OneThatWasLostIsTriedFirstThenTheOther) {
   BrokerList brokers(2, {});
   brokers.due(second(0));
-  brokers.connected();
+  brokers.connected(second(0));
   EXPECT_TRUE(brokers.is_up());
   brokers.down(second(5));
   EXPECT_EQ(brokers.due(second(5)), 0u);
   brokers.down(second(5));
   EXPECT_EQ(brokers.due(second(5)), 1u);
-  brokers.connected();
+  brokers.connected(second(5));
   EXPECT_EQ(brokers.current(), 1u);
+}
+
+TEST(BrokerList, OneWhereNobodyAnswersMakesRoomForTheNextEverMoreSeldom) {
+  BrokerList brokers(2, {}, {from_seconds(30), from_seconds(100)});
+  const auto given_up_after = [&](double from_s) {
+    brokers.due(second(from_s));
+    brokers.connected(second(from_s));
+    for (int time_s = 0; time_s < 1000; ++time_s)
+      if (brokers.give_up(second(0), second(from_s + time_s))) return time_s;
+    return -1;
+  };
+  EXPECT_EQ(given_up_after(0), 30);
+  EXPECT_EQ(brokers.current(), 1u);
+  EXPECT_EQ(brokers.due(second(30)), 1u);
+  EXPECT_EQ(given_up_after(30), 30);
+  EXPECT_EQ(brokers.current(), 0u);
+  EXPECT_EQ(given_up_after(60), 60);
+  EXPECT_EQ(given_up_after(120), 60);
+  EXPECT_EQ(given_up_after(180), 100);
+  brokers.answered();
+  EXPECT_EQ(given_up_after(280), 30);
+}
+
+TEST(BrokerList, TheOnlyOneIsNotGivenUp) {
+  BrokerList brokers(1, {});
+  brokers.due(second(0));
+  brokers.connected(second(0));
+  EXPECT_FALSE(brokers.give_up(second(0), second(1e6)));
 }
 
 }  // namespace
