@@ -35,7 +35,7 @@ mqtt::connect_options connect_options(const MqttParams& params, const std::strin
 class MqttLink::Connection : private mqtt::iaction_listener {
  public:
   Connection(const MqttParams& params, const std::string& broker, const MqttMessage& will)
-      : client_(broker, params.client_id) {
+      : broker_(broker), client_(broker, params.client_id) {
     client_.set_connection_lost_handler([this](const std::string& cause) { put(LinkDown{"lost: " + cause}); });
     client_.set_message_callback([this](mqtt::const_message_ptr message) {
       put(MqttMessage{message->get_topic(), message->get_payload_str(), message->get_qos(), message->is_retained()});
@@ -53,7 +53,10 @@ class MqttLink::Connection : private mqtt::iaction_listener {
  private:
   void on_success(const mqtt::token&) override { put(LinkUp{}); }
   void on_failure(const mqtt::token& token) override {
-    put(LinkDown{std::string("not connected: ") + mqtt::exception(token.get_return_code()).what()});
+    const int code = token.get_return_code();
+    // Paho's "Failure" is all that it says of a broker that is not there.
+    put(LinkDown{"not connected: " + broker_ + ": " +
+                 (code == MQTTASYNC_FAILURE ? "no TCP or TLS connection" : mqtt::exception(code).what())});
   }
 
   void put(LinkEvent event) {
@@ -61,6 +64,7 @@ class MqttLink::Connection : private mqtt::iaction_listener {
     events_.push_back(std::move(event));
   }
 
+  std::string broker_;
   std::mutex mutex_;
   std::vector<LinkEvent> events_;
   mqtt::async_client client_;  // last: its threads end before what they write to goes
@@ -75,7 +79,7 @@ void MqttLink::connect(std::size_t broker, const MqttMessage& will) {
   try {
     connection_ = std::make_unique<Connection>(params_, params_.brokers.at(broker), will);
   } catch (const mqtt::exception& error) {
-    failures_.push_back(LinkDown{std::string("not connected: ") + error.what()});
+    failures_.push_back(LinkDown{"not connected: " + params_.brokers.at(broker) + ": " + error.what()});
   }
 }
 

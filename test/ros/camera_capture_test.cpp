@@ -127,6 +127,7 @@ TEST_F(CameraCapture, PicturesOnDiskWithTheirCalibration) {
   ASSERT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "images count") > 0; }));
   EXPECT_EQ(diagnostics_.level(kNode), 0) << diagnostics_.message(kNode);
   EXPECT_NEAR(std::stod(diagnostics_.value(kNode, "frame rate_hz")), 100, 5);
+  EXPECT_EQ(diagnostics_.value(kNode, "pixels"), "copied into the message");
 }
 
 TEST_F(CameraCapture, ACalibrationOfAnotherModeIsNotUsed) {
@@ -197,6 +198,7 @@ TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
   ASSERT_TRUE(more_images(20));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "reconnects") >= 1; }));
   EXPECT_NE(diagnostics_.value(kNode, "stamps").find("moved to the middle"), std::string::npos);
+  EXPECT_EQ(diagnostics_.value(kNode, "pixels"), "written into the message by the driver");
 }
 
 TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {
@@ -209,12 +211,15 @@ TEST_F(GigeCapture, ACameraThatIsNotThereYetIsAwaited) {
 TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
   ros::param::set("/camera_capture/trigger", "Software");
   set("stale_warn_s", 0.1);
+  const Inbox<diagnostic_msgs::DiagnosticArray> told_from_the_first(nh_, "/diagnostics");
   ASSERT_TRUE(load(FakeGigeCamera::kUri));
   ASSERT_TRUE(wait_for([&] {
     const std::string age_s = diagnostics_.value(kNode, "images age_s");
     return !age_s.empty() && std::stod(age_s) > 0.5;
   }));
   EXPECT_EQ(diagnostics_.message(kNode).find("images"), std::string::npos) << diagnostics_.message(kNode);
+  for (const auto& array : told_from_the_first.all())
+    for (const auto& status : array->status) EXPECT_LT(status.level, 2) << status.name << ": " << status.message;
 }
 
 TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {

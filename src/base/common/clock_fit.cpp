@@ -7,6 +7,16 @@
 namespace lodestar {
 namespace {
 
+constexpr double kFarthest_s = 1e9;  ///< a device that claims more has said enough, and stamps stay representable
+
+/// Counts go round, as the device's own do.
+std::int64_t plus(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+std::int64_t minus(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+
 struct Point {
   double x, y;
 };
@@ -34,10 +44,10 @@ void ClockFit::add(std::uint64_t ticks, Stamp arrival) {
 
   const Sample& newest = samples_.back();
   const double elapsed_ticks = seconds(arrival - newest.arrival) * params_.tick_hz;
-  const Sample sample{unwrapped(ticks, newest.ticks + std::llround(elapsed_ticks)), arrival};
+  const Sample sample{unwrapped(ticks, plus(newest.ticks, std::llround(elapsed_ticks))), arrival};
   if (contradicts(sample)) {
     restart();
-  } else if (sample.ticks <= newest.ticks) {
+  } else if (since_newest_s(sample.ticks) <= 0) {
     return;
   }
   samples_.push_back(sample);
@@ -54,11 +64,12 @@ std::optional<Stamp> ClockFit::to_host(std::uint64_t ticks) const {
 std::int64_t ClockFit::unwrapped(std::uint64_t ticks, std::int64_t expected) const {
   const int unused_bits = 64 - params_.counter_bits;
   const std::uint64_t ahead = ticks - static_cast<std::uint64_t>(expected);
-  return expected + (static_cast<std::int64_t>(ahead << unused_bits) >> unused_bits);
+  return plus(expected, static_cast<std::int64_t>(ahead << unused_bits) >> unused_bits);
 }
 
 double ClockFit::since_newest_s(std::int64_t ticks) const {
-  return static_cast<double>(ticks - samples_.back().ticks) / params_.tick_hz;
+  const double since_s = static_cast<double>(minus(ticks, samples_.back().ticks)) / params_.tick_hz;
+  return std::clamp(since_s, -kFarthest_s, kFarthest_s);
 }
 
 Stamp ClockFit::host_time(std::int64_t ticks) const {

@@ -80,6 +80,7 @@ void CameraCaptureNodelet::open_or_refuse() {
   } catch (const CameraError& error) {
     ROS_WARN_STREAM(error.what() << "; trying again until it is there");
   }
+  report_ = capture_->report();
 }
 
 void CameraCaptureNodelet::run() {
@@ -124,6 +125,7 @@ void CameraCaptureNodelet::report(Health::Status& status) {
   const CaptureReport now = shared_report();
   status.add("camera", now.camera);
   status.add("stamps", now.stamping);
+  status.add("pixels", now.in_place ? "written into the message by the driver" : "copied into the message");
   status.addf("frame rate_hz", "%.3f", now.rate_hz);
   status.addf("frame jitter_ms", "%.3f", now.jitter_s * 1e3);
   status.addf("clock drift_ppm", "%.1f", now.drift * 1e6);
@@ -133,7 +135,7 @@ void CameraCaptureNodelet::report(Health::Status& status) {
   status.add("last fault", now.fault);
   report_drops(now.missed, status);
   if (now.state == CaptureState::kOver) status.mergeSummary(DiagnosticStatus::WARN, now.fault);
-  if (now.state == CaptureState::kClosed || now.state == CaptureState::kSilent)
+  if (now.state != CaptureState::kOver && now.state != CaptureState::kRunning)
     status.mergeSummary(DiagnosticStatus::ERROR, "camera lost: " + now.fault);
   const std::string uncalibrated = calibration_ ? calibration_->fault() : "";
   status.add("calibration", uncalibrated.empty() ? "in force" : uncalibrated);

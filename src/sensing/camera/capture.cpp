@@ -9,11 +9,12 @@ Capture::Capture(Open open, const CameraSettings& settings, FrameAllocator alloc
 
 void Capture::open() {
   source_.reset();  // first: most devices serve one at a time
-  source_ = open_();
   try {
+    source_ = open_();
     info_ = source_->start(settings_, allocate_);
-  } catch (...) {
+  } catch (const std::exception& error) {
     source_.reset();
+    lose(CaptureState::kClosed, error.what());
     throw;
   }
   forget_stream();
@@ -32,7 +33,7 @@ void Capture::forget_stream() {
   frames_before_ += counter_.frames();
   dropped_before_ += counter_.dropped();
   if (stamper_) clock_restarts_before_ += stamper_->fit().restarts();
-  silent_for_ = {};
+  silent_for_ = spoilt_for_ = {};
 }
 
 std::optional<CapturedFrame> Capture::next() {
@@ -40,7 +41,7 @@ std::optional<CapturedFrame> Capture::next() {
   if (lost_ && !reopen()) return std::nullopt;
   try {
     return take(source_->next(kPatience));
-  } catch (const CameraError& error) {
+  } catch (const std::exception& error) {  // whatever a driver's library throws
     lose(CaptureState::kClosed, error.what());
     return std::nullopt;
   }
@@ -50,8 +51,7 @@ bool Capture::reopen() {
   try {
     open();
     return true;
-  } catch (const std::runtime_error& error) {
-    lose(CaptureState::kClosed, error.what());
+  } catch (const std::exception&) {
     return false;
   }
 }
@@ -73,16 +73,25 @@ std::optional<CapturedFrame> Capture::take(Result<DeviceFrame, NoFrame> result) 
   } else if (result.error() == NoFrame::kTimeout) {
     wait_longer();
   } else {
-    hear();
-    missed_.add(result.error());
+    spoil(result.error());
   }
   return std::nullopt;
 }
 
 void Capture::hear() {
-  silent_for_ = {};
+  silent_for_ = spoilt_for_ = {};
   state_ = CaptureState::kRunning;
   fault_.clear();
+}
+
+// To open the camera anew would not mend a cable or a packet size.
+void Capture::spoil(NoFrame reason) {
+  missed_.add(reason);
+  silent_for_ = {};
+  spoilt_for_ += period_s_ > 0 ? from_seconds(period_s_) : kPatience;
+  if (spoilt_for_ < kSilence) return;
+  state_ = CaptureState::kSpoilt;
+  fault_ = info_.name + " sends no whole frame: " + lodestar::name(reason);
 }
 
 void Capture::wait_longer() {
@@ -105,6 +114,7 @@ CaptureReport Capture::report() const {
   report.state = state_;
   report.fault = fault_;
   report.camera = info_.name;
+  report.in_place = info_.in_place;
   report.frames = frames_before_ + counter_.frames();
   report.dropped = dropped_before_ + counter_.dropped();
   report.reconnects = reconnects_;

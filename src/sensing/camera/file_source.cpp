@@ -21,7 +21,11 @@ FileSource::FileSource(const std::string& address) : path_(address.substr(0, add
 
 void FileSource::rewind() {
   const bool may_be = is_sequence_ || std::filesystem::is_regular_file(path_);  // OpenCV would say much, and try URLs
-  if (may_be) capture_.open(path_, is_sequence_ ? cv::CAP_IMAGES : cv::CAP_ANY);
+  try {
+    if (may_be) capture_.open(path_, is_sequence_ ? cv::CAP_IMAGES : cv::CAP_ANY);
+  } catch (const cv::Exception&) {
+    capture_.release();
+  }
   if (!capture_.isOpened()) throw CameraError("file:" + path_ + " is no video or image sequence that can be read");
 }
 
@@ -46,10 +50,26 @@ SourceInfo FileSource::start(const CameraSettings& settings, const FrameAllocato
 }
 
 bool FileSource::read() {
-  if (capture_.read(image_)) return true;
-  if (!loop_) return false;
+  try {
+    return capture_.read(image_);
+  } catch (const cv::Exception&) {  // a header that claims a giant
+    return false;
+  }
+}
+
+/// OpenCV stays at a picture that it cannot read, as it does at the end.
+bool FileSource::leave_out() {
+  const double at = capture_.get(cv::CAP_PROP_POS_FRAMES);
+  if (!is_sequence_ || at + 1 >= capture_.get(cv::CAP_PROP_FRAME_COUNT)) return false;
+  return capture_.set(cv::CAP_PROP_POS_FRAMES, at + 1);
+}
+
+std::optional<NoFrame> FileSource::next_picture() {
+  if (read()) return std::nullopt;
+  if (leave_out()) return NoFrame::kFormat;
+  if (!loop_) return NoFrame::kEnd;
   rewind();
-  return capture_.read(image_);
+  return read() ? std::nullopt : std::optional(NoFrame::kEnd);
 }
 
 Result<DeviceFrame, NoFrame> FileSource::next(Duration timeout) {
@@ -59,7 +79,7 @@ Result<DeviceFrame, NoFrame> FileSource::next(Duration timeout) {
   const Stamp shot = due_;
   // A machine that cannot keep up skips no frames but gets them late.
   due_ = std::max(due_ + period_, host_now() - period_);
-  if (!read()) return NoFrame::kEnd;
+  if (const auto none = next_picture()) return *none;
   auto frame = frame_of(image_, allocate_);
   if (!frame) return NoFrame::kFormat;
   frame->id = id_++;

@@ -20,6 +20,8 @@ class FileSource : public FrameSource {
  private:
   void rewind();
   bool read();
+  bool leave_out();
+  std::optional<NoFrame> next_picture();
 
   std::string path_;
   bool loop_ = false, is_sequence_ = false;

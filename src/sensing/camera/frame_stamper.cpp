@@ -10,16 +10,11 @@ ClockFitParams fit_params(const SourceClock& clock) {
   return params;
 }
 
-/// From the middle of the exposure to the instant that the device stamps, in exposures.
-double stamped_after_middle(SourceClock::Stamped stamped) {
-  switch (stamped) {
-    case SourceClock::Stamped::kExposureStart:
-      return -0.5;
-    case SourceClock::Stamped::kExposureMiddle:
-      return 0;
-    default:
-      return 0.5;
-  }
+/// From the middle of the exposure to the instant that the fitted line gives. An arrival is the transfer after the
+/// exposure's end, whatever instant the ticks are of.
+double behind_middle_s(const SourceClock& clock, double exposure_s, double transfer_s) {
+  if (clock.heard_at_arrival || clock.stamped == SourceClock::Stamped::kReceived) return 0.5 * exposure_s + transfer_s;
+  return clock.stamped == SourceClock::Stamped::kExposureStart ? -0.5 * exposure_s : 0;
 }
 
 }  // namespace
@@ -27,12 +22,9 @@ double stamped_after_middle(SourceClock::Stamped stamped) {
 FrameStamper::FrameStamper(const SourceInfo& source, double transfer_s)
     : clock_(source.clock), exposure_s_(source.exposure_s), transfer_s_(transfer_s), fit_(fit_params(source.clock)) {}
 
-// An arrival is half an exposure and the transfer after the middle, whatever instant the ticks are of.
 Stamp FrameStamper::stamp(const DeviceFrame& frame) {
   fit_.add(frame.heard.ticks, frame.heard.host);
-  const double behind_middle_s =
-      clock_.heard_at_arrival ? 0.5 * exposure_s_ + transfer_s_ : stamped_after_middle(clock_.stamped) * exposure_s_;
-  return fit_.to_host(frame.ticks).value() - from_seconds(behind_middle_s);
+  return fit_.to_host(frame.ticks).value() - from_seconds(behind_middle_s(clock_, exposure_s_, transfer_s_));
 }
 
 std::string FrameStamper::description() const {

@@ -47,10 +47,15 @@ DeviceFrame frame_of_yuyv(const std::uint8_t* data, int width_px, int height_px,
 
 std::optional<DeviceFrame> frame_of_jpeg(const std::uint8_t* data, std::size_t bytes, int width_px, int height_px,
                                          const FrameAllocator& allocate) {
+  if (bytes == 0) return std::nullopt;
   const cv::Mat packed(1, static_cast<int>(bytes), CV_8UC1, const_cast<std::uint8_t*>(data));
-  const cv::Mat image = bytes > 0 ? cv::imdecode(packed, cv::IMREAD_GRAYSCALE) : cv::Mat();
-  if (image.cols != width_px || image.rows != height_px) return std::nullopt;
-  return frame_of(image, allocate);
+  try {
+    const cv::Mat image = cv::imdecode(packed, cv::IMREAD_GRAYSCALE);
+    if (image.cols != width_px || image.rows != height_px) return std::nullopt;
+    return frame_of(image, allocate);
+  } catch (const cv::Exception&) {  // a header that claims a giant
+    return std::nullopt;
+  }
 }
 
 }  // namespace lodestar

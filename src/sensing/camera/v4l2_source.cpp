@@ -6,6 +6,7 @@
 #include <cstring>
 #include <ctime>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "pixels.hpp"
 #include "v4l2_limits.hpp"
@@ -25,11 +26,17 @@ ClockPair both_clocks() {
   return {static_cast<std::uint64_t>(now_ns(CLOCK_MONOTONIC)), Stamp(Duration(now_ns(CLOCK_REALTIME)))};
 }
 
-v4l2_buffer mapped_buffer(std::uint32_t index) {
-  auto buffer = of_capture<v4l2_buffer>();
-  buffer.memory = V4L2_MEMORY_MMAP;
-  buffer.index = index;
-  return buffer;
+/// Whether the kernel's pixels are those of a frame as they are.
+bool is_plain(const v4l2_pix_format& format) {
+  return format.pixelformat == V4L2_PIX_FMT_GREY || format.pixelformat == V4L2_PIX_FMT_Y16;
+}
+
+std::size_t row_bytes(const v4l2_pix_format& format) {
+  return format.width * (format.pixelformat == V4L2_PIX_FMT_GREY ? 1u : 2u);
+}
+
+std::size_t stride_bytes(const v4l2_pix_format& format) {
+  return std::max<std::size_t>(format.bytesperline, row_bytes(format));
 }
 
 }  // namespace
@@ -83,6 +90,7 @@ void V4l2Source::set_format(const CameraSettings& settings) {
   if (settings.width_px) format.fmt.pix.width = static_cast<std::uint32_t>(*settings.width_px);
   if (settings.height_px) format.fmt.pix.height = static_cast<std::uint32_t>(*settings.height_px);
   format.fmt.pix.field = V4L2_FIELD_NONE;
+  format.fmt.pix.bytesperline = 0;  // as few as there can be, not those of the format before
   const v4l2_pix_format asked = format.fmt.pix;
   demand(VIDIOC_S_FMT, &format, "setting its format");
   format_ = format.fmt.pix;
@@ -138,31 +146,73 @@ SourceInfo V4l2Source::start(const CameraSettings& settings, const FrameAllocato
   info.period_s = period_s();
   info.clock.frame_id_bits = 32;
   allocate_ = allocate;
-  map_buffers(info.clock);
+  provide_buffers(info.clock);
+  info.in_place = memory_ == V4L2_MEMORY_USERPTR;
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   demand(VIDIOC_STREAMON, &type, "starting");
   streaming_ = true;
   return info;
 }
 
-void V4l2Source::map_buffers(SourceClock& clock) {
+// A driver may have no use for memory but its own, and some say so only when they are handed ours.
+void V4l2Source::provide_buffers(SourceClock& clock) {
+  if (is_plain(format_)) {
+    try {
+      return queue_buffers(V4L2_MEMORY_USERPTR, clock);
+    } catch (const CameraError&) {
+      auto none = of_capture<v4l2_requestbuffers>();
+      none.memory = V4L2_MEMORY_USERPTR;
+      port_->control(VIDIOC_REQBUFS, &none);  // the driver lets go of what it had taken
+      buffers_.clear();
+    }
+  }
+  queue_buffers(V4L2_MEMORY_MMAP, clock);
+}
+
+void V4l2Source::queue_buffers(v4l2_memory memory, SourceClock& clock) {
+  memory_ = memory;
   auto request = of_capture<v4l2_requestbuffers>();
   request.count = kBuffers;
-  request.memory = V4L2_MEMORY_MMAP;
+  request.memory = memory_;
   demand(VIDIOC_REQBUFS, &request, "asking for buffers");
   for (std::uint32_t index = 0; index < request.count; ++index) {
-    v4l2_buffer buffer = mapped_buffer(index);
+    v4l2_buffer buffer = kernel_buffer(index);
     demand(VIDIOC_QUERYBUF, &buffer, "asking for a buffer");
-    std::uint8_t* const data = port_->map(buffer.length, buffer.m.offset);
-    if (data == nullptr) throw CameraError(name_ + ": its buffers cannot be mapped");
-    buffers_.push_back({data, buffer.length});
     if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
       refuse("its driver does not stamp frames by the steady clock");
     const bool at_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-    clock.stamped = at_start ? SourceClock::Stamped::kExposureStart : SourceClock::Stamped::kExposureEnd;
+    clock.stamped = at_start ? SourceClock::Stamped::kExposureStart : SourceClock::Stamped::kReceived;
     clock.heard_at_arrival = false;
-    demand(VIDIOC_QBUF, &buffer, "handing it a buffer");
+    buffers_.push_back(memory_ == V4L2_MEMORY_USERPTR ? our_buffer() : mapped_buffer(buffer));
+    queue(index);
   }
+}
+
+v4l2_buffer V4l2Source::kernel_buffer(std::uint32_t index) const {
+  auto buffer = of_capture<v4l2_buffer>();
+  buffer.memory = memory_;
+  buffer.index = index;
+  return buffer;
+}
+
+V4l2Source::Buffer V4l2Source::our_buffer() const {
+  const std::size_t bytes = std::max<std::size_t>(format_.sizeimage, stride_bytes(format_) * format_.height);
+  return {allocate_(bytes), bytes};
+}
+
+V4l2Source::Buffer V4l2Source::mapped_buffer(const v4l2_buffer& buffer) {
+  std::uint8_t* const data = port_->map(buffer.length, buffer.m.offset);
+  if (data == nullptr) throw CameraError(name_ + ": its buffers cannot be mapped");
+  return {{data, nullptr}, buffer.length};
+}
+
+void V4l2Source::queue(std::uint32_t index) {
+  v4l2_buffer buffer = kernel_buffer(index);
+  if (memory_ == V4L2_MEMORY_USERPTR) {
+    buffer.m.userptr = reinterpret_cast<std::uintptr_t>(buffers_[index].memory.data);
+    buffer.length = static_cast<std::uint32_t>(buffers_[index].bytes);
+  }
+  demand(VIDIOC_QBUF, &buffer, "handing it a buffer");
 }
 
 Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
@@ -171,15 +221,16 @@ Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
     demand(VIDIOC_QUERYCAP, &capability, "it is gone");
     return NoFrame::kTimeout;
   }
-  v4l2_buffer buffer = mapped_buffer(0);
+  v4l2_buffer buffer = kernel_buffer(0);
   const int fault = port_->control(VIDIOC_DQBUF, &buffer);
   if (fault == EAGAIN) return NoFrame::kTimeout;
   if (fault != 0) throw CameraError(name_ + " is gone: " + std::strerror(fault));
 
-  const bool broken = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.index >= buffers_.size();
-  auto frame = broken ? std::nullopt : unpack(buffer);
-  v4l2_buffer handed_back = buffer;  // the kernel clears its number and its stamp
-  demand(VIDIOC_QBUF, &handed_back, "handing back a buffer");
+  if (buffer.index >= buffers_.size()) throw CameraError(name_ + ": it filled a buffer that it was never handed");
+
+  const bool damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
+  auto frame = damaged ? std::nullopt : frame_in(buffers_[buffer.index], buffer.bytesused);
+  queue(buffer.index);
   if (!frame) return NoFrame::kIncomplete;
   frame->id = buffer.sequence;
   frame->ticks =
@@ -188,18 +239,25 @@ Result<DeviceFrame, NoFrame> V4l2Source::next(Duration timeout) {
   return *frame;
 }
 
-std::optional<DeviceFrame> V4l2Source::unpack(const v4l2_buffer& buffer) const {
-  const Buffer& mapped = buffers_[buffer.index];
-  const std::size_t bytes = std::min<std::size_t>(buffer.bytesused, mapped.bytes);
+std::optional<DeviceFrame> V4l2Source::frame_in(Buffer& buffer, std::size_t bytes_used) const {
+  std::uint8_t* const data = buffer.memory.data;
+  const std::size_t bytes = std::min(bytes_used, buffer.bytes), stride = stride_bytes(format_);
   const int width = static_cast<int>(format_.width), height = static_cast<int>(format_.height);
-  if (format_.pixelformat == V4L2_PIX_FMT_MJPEG) return frame_of_jpeg(mapped.data, bytes, width, height, allocate_);
+  if (format_.pixelformat == V4L2_PIX_FMT_MJPEG) return frame_of_jpeg(data, bytes, width, height, allocate_);
 
-  const bool grey = format_.pixelformat == V4L2_PIX_FMT_GREY;
-  const std::size_t row_bytes = format_.width * (grey ? 1u : 2u);
-  const std::size_t stride = std::max<std::size_t>(format_.bytesperline, row_bytes);
-  if (bytes < stride * (format_.height - 1) + row_bytes) return std::nullopt;
-  if (format_.pixelformat == V4L2_PIX_FMT_YUYV) return frame_of_yuyv(mapped.data, width, height, stride, allocate_);
-  return frame_of(cv::Mat(height, width, grey ? CV_8UC1 : CV_16UC1, mapped.data, stride), allocate_);
+  if (bytes < stride * (format_.height - 1) + row_bytes(format_)) return std::nullopt;
+  if (format_.pixelformat == V4L2_PIX_FMT_YUYV) return frame_of_yuyv(data, width, height, stride, allocate_);
+  const bool is_8_bit = format_.pixelformat == V4L2_PIX_FMT_GREY;
+  if (memory_ == V4L2_MEMORY_MMAP)
+    return frame_of(cv::Mat(height, width, is_8_bit ? CV_8UC1 : CV_16UC1, data, stride), allocate_);
+
+  DeviceFrame frame;
+  frame.width_px = width;
+  frame.height_px = height;
+  frame.bits = is_8_bit ? 8 : 16;
+  frame.stride_bytes = stride;
+  frame.memory = std::exchange(buffer, our_buffer()).memory;
+  return frame;
 }
 
 }  // namespace lodestar

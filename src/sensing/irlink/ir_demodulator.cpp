@@ -40,7 +40,7 @@ const char* name(SampleDrop reason) {
   return "unknown";
 }
 
-/// One uninterrupted run of samples of one rate.
+/// One uninterrupted run of samples, as many of them to a bit.
 class IrDemodulator::Stream {
  public:
   Stream(const IrSampleBlock& block, int samples_per_bit, double full_scale_counts)
@@ -48,7 +48,6 @@ class IrDemodulator::Stream {
         sync_span_(kIrSyncBits * samples_per_bit),
         frame_span_((kIrFrameBits - 1) * samples_per_bit + 1 + FrameSlicer::kMargin),
         channels_(block.channels),
-        rate_hz_(block.sample_rate_hz),
         full_scale_counts_(full_scale_counts),
         filter_(block.channels, samples_per_bit, full_scale_counts, kChunk),
         slicer_(samples_per_bit) {
@@ -56,8 +55,9 @@ class IrDemodulator::Stream {
     frame_.levels.reserve(kIrLanes);
   }
 
-  bool suits(const IrSampleBlock& block) const {
-    return block.channels == channels_ && block.sample_rate_hz == rate_hz_;
+  /// A rate that trembles from block to block is the same: the clock is recovered from each frame.
+  bool suits(const IrSampleBlock& block, int samples_per_bit) const {
+    return block.channels == channels_ && samples_per_bit == samples_per_bit_;
   }
 
   /// Whether the block begins where the last one ended.
@@ -75,6 +75,7 @@ class IrDemodulator::Stream {
 
   void process(const IrSampleBlock& block, const Visit& visit) {
     block_stamp_ = block.stamp;
+    rate_hz_ = block.sample_rate_hz;
     block_first_ = taken_;
     const int count = static_cast<int>(block.samples.size()) / channels_;
     for (int begin = 0; begin < count; begin += kChunk) {
@@ -162,7 +163,7 @@ class IrDemodulator::Stream {
   }
 
   int samples_per_bit_, sync_span_, frame_span_, channels_;
-  double rate_hz_, full_scale_counts_;
+  double full_scale_counts_, rate_hz_ = 0;  ///< the newest block's
   ManchesterFilter filter_;
   FrameSlicer slicer_;
   ReedSolomon code_;
@@ -193,8 +194,9 @@ std::optional<SampleDrop> IrDemodulator::process(const IrSampleBlock& block, con
     drops_.add(*fault);
     return fault;
   }
-  if (!stream_ || !stream_->suits(block))
-    stream_ = std::make_unique<Stream>(block, samples_per_bit(block.sample_rate_hz, bit_rate_bps_), full_scale_counts_);
+  const int per_bit = samples_per_bit(block.sample_rate_hz, bit_rate_bps_);
+  if (!stream_ || !stream_->suits(block, per_bit))
+    stream_ = std::make_unique<Stream>(block, per_bit, full_scale_counts_);
   if (!stream_->continued_by(block)) {
     ++gaps_;
     stream_->restart();

@@ -22,15 +22,17 @@ enum class CaptureState {
   kClosed,   ///< the camera is not there, or refused the settings; tried again
   kRunning,  ///< frames come, or their time has not passed yet
   kSilent,   ///< no frame came when it was due; opened anew until one comes
+  kSpoilt,   ///< frames come, but none for kSilence that can be used
   kOver,     ///< a recording came to its end
 };
 
 /// How a capture goes; counts are those since its beginning.
 struct CaptureReport {
   CaptureState state = CaptureState::kClosed;
-  std::string fault;     ///< why no frame comes; empty while frames come
-  std::string camera;    ///< that is or was open
-  std::string stamping;  ///< how its frames are stamped
+  std::string fault;      ///< why no frame comes; empty while frames come
+  std::string camera;     ///< that is or was open
+  std::string stamping;   ///< how its frames are stamped
+  bool in_place = false;  ///< as SourceInfo says
   std::uint64_t frames = 0, dropped = 0, reconnects = 0, clock_restarts = 0;
   double rate_hz = 0, jitter_s = 0, drift = 0;  ///< of the last second or so
   DropCounts<NoFrame> missed;
@@ -61,6 +63,7 @@ class Capture {
   bool reopen();
   std::optional<CapturedFrame> take(Result<DeviceFrame, NoFrame> result);
   void hear();
+  void spoil(NoFrame reason);
   void wait_longer();
   void forget_stream();
   void lose(CaptureState state, const std::string& why);
@@ -75,7 +78,7 @@ class Capture {
   FrameCounter counter_{64};
   CaptureState state_ = CaptureState::kClosed;
   std::string fault_;
-  Duration silent_for_{};
+  Duration silent_for_{}, spoilt_for_{};
   Duration may_be_late_ = kSilence;  ///< doubled with each opening that brought too few frames to learn the period
   double period_s_ = 0;              ///< from frame to frame, as learnt or told; 0: unknown
   bool lost_ = true, was_open_ = false;

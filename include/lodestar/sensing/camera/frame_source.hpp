@@ -54,7 +54,11 @@ struct DeviceFrame {
 
 /// What a source's counters mean.
 struct SourceClock {
-  enum class Stamped { kExposureStart, kExposureMiddle, kExposureEnd };
+  enum class Stamped {
+    kExposureStart,
+    kExposureMiddle,
+    kReceived  ///< the last pixel is read out and here: behind the end of the exposure
+  };
   Stamped stamped = Stamped::kExposureStart;
   /// `heard` is a frame's arrival, which is the end of its exposure at the earliest. Else both clocks were read at
   /// once.
@@ -72,6 +76,7 @@ struct SourceInfo {
   double period_s = 0;                         ///< from frame to frame, as the source says; 0: unknown
   std::optional<CameraIntrinsics> intrinsics;  ///< where the source itself knows its lens
   bool triggered = false;                      ///< frames come when someone else wants them: silence is no fault
+  bool in_place = false;  ///< the driver writes into the allocator's memory; else every frame is copied there
 };
 
 /// Why there was no frame.

@@ -200,6 +200,7 @@ SourceInfo AravisSource::info(const CameraSettings& settings) {
   SourceInfo info;
   info.name = name_ + " " + vendor + " " + model + (number.empty() ? "" : " " + number);
   info.triggered = !settings.trigger.empty();
+  info.in_place = true;
   if (call(arv_camera_is_exposure_time_available)) info.exposure_s = call(arv_camera_get_exposure_time) * 1e-6;
   const double rate_hz = call(arv_camera_is_frame_rate_available) ? call(arv_camera_get_frame_rate) : 0;
   if (rate_hz > 0) info.period_s = 1 / rate_hz;

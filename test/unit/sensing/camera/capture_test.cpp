@@ -9,7 +9,7 @@
 namespace lodestar {
 namespace {
 
-enum class Step { kFrame, kTimeout, kIncomplete, kEnd, kGone };
+enum class Step { kFrame, kTimeout, kIncomplete, kEnd, kGone, kThrow };
 
 /// What a camera does next; every camera that is opened reads from the same script.
 struct Script {
@@ -42,6 +42,7 @@ class ScriptedSource : public FrameSource {
     if (step == Step::kIncomplete) return NoFrame::kIncomplete;
     if (step == Step::kEnd) return NoFrame::kEnd;
     if (step == Step::kGone) throw CameraError("gone");
+    if (step == Step::kThrow) throw std::logic_error("anything");
     DeviceFrame frame;
     frame.id = id_++;
     frame.ticks = ticks_;
@@ -164,11 +165,33 @@ TEST_F(CaptureTest, ACameraThatIsGoneIsTriedUntilItIsBack) {
   EXPECT_EQ(capture_.report().reconnects, 1u);
 }
 
-TEST_F(CaptureTest, LostPacketsAreCountedAndAreNoSilence) {
-  script_.steps.assign(20, Step::kIncomplete);
-  EXPECT_EQ(frames_of(20), 0);
-  EXPECT_EQ(capture_.report().missed[NoFrame::kIncomplete], 20u);
+TEST_F(CaptureTest, LostPacketsAreCountedAndNoWholeFrameForHalfASecondIsTold) {
+  script_.period_s = 0.01;
+  script_.steps.assign(60, Step::kIncomplete);
+  script_.steps.push_back(Step::kFrame);
+  EXPECT_EQ(frames_of(49), 0);
+  EXPECT_EQ(capture_.report().missed[NoFrame::kIncomplete], 49u);
   EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(frames_of(11), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kSpoilt);
+  EXPECT_EQ(capture_.report().fault, "scripted sends no whole frame: incomplete");
+  EXPECT_EQ(frames_of(1), 1);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(script_.opened, 1) << "to open it anew mends no cable";
+}
+
+TEST_F(CaptureTest, WhyACameraIsNotThereIsKnownFromTheFirst) {
+  script_.there = {false};
+  EXPECT_THROW(capture_.open(), CameraError);
+  EXPECT_EQ(capture_.report().fault, "not there");
+  EXPECT_EQ(capture_.report().state, CaptureState::kClosed);
+}
+
+TEST_F(CaptureTest, ADriverThatThrowsAnythingIsALostCamera) {
+  script_.steps = {Step::kFrame, Step::kThrow, Step::kFrame};
+  EXPECT_EQ(frames_of(2), 1);
+  EXPECT_EQ(capture_.report().fault, "anything");
+  EXPECT_EQ(frames_of(1), 1);
 }
 
 TEST_F(CaptureTest, ARecordingEnds) {

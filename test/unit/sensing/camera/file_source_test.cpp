@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -76,6 +77,22 @@ TEST_F(FileSourceTest, ALoopGoesOn) {
     expect_picture(*frame, i % 4, CV_8UC1);
     EXPECT_EQ(frame->id, static_cast<std::uint64_t>(i));
   }
+}
+
+TEST_F(FileSourceTest, APictureThatCannotBeReadIsLeftOut) {
+  const std::string uri = write_sequence(CV_8UC1), giant = "P5\n60000 60000\n255\n";
+  for (const std::string& spoilt : {giant, std::string("P5\n64 48\n255\nshort")}) {
+    std::ofstream(folder_ + "/frame_0001.png") << spoilt;
+    const auto source = open_source(uri);
+    source->start(settings_, memory_.allocator());
+    ASSERT_TRUE(source->next(kPatience).ok());
+    EXPECT_EQ(source->next(kPatience).error(), NoFrame::kFormat) << spoilt;
+    const auto after = source->next(kPatience);
+    ASSERT_TRUE(after.ok());
+    expect_picture(*after, 2, CV_8UC1);
+  }
+  std::ofstream(folder_ + "/only_0000.png") << giant;
+  EXPECT_THROW(open_source("file:" + folder_ + "/only_%04d.png"), CameraError);
 }
 
 TEST_F(FileSourceTest, AVideoAtItsOwnRate) {

@@ -35,19 +35,20 @@ SourceInfo source(SourceClock::Stamped stamped, bool heard_at_arrival) {
 }
 
 TEST(FrameStamper, ArrivalsAreTheEndOfTheExposureAndTheTransfer) {
-  for (const auto stamped : {SourceClock::Stamped::kExposureStart, SourceClock::Stamped::kExposureEnd}) {
+  for (const auto stamped : {SourceClock::Stamped::kExposureStart, SourceClock::Stamped::kReceived}) {
     const Duration at = stamped == SourceClock::Stamped::kExposureStart ? milliseconds(0) : milliseconds(4);
     EXPECT_NEAR(error_s(source(stamped, true), 0.003, milliseconds(7), at), 0, 1e-6);
     EXPECT_NEAR(error_s(source(stamped, true), 0, milliseconds(7), at), 0.003, 1e-6);
   }
 }
 
-TEST(FrameStamper, ClocksReadTogetherNeedNoTransfer) {
+TEST(FrameStamper, WhereBothClocksAreReadTheStampedInstantCounts) {
   EXPECT_NEAR(error_s(source(SourceClock::Stamped::kExposureStart, false), 0, milliseconds(9), milliseconds(0)), 0,
               1e-6);
   EXPECT_NEAR(error_s(source(SourceClock::Stamped::kExposureMiddle, false), 0, milliseconds(9), milliseconds(2)), 0,
               1e-6);
-  EXPECT_NEAR(error_s(source(SourceClock::Stamped::kExposureEnd, false), 0, milliseconds(9), milliseconds(4)), 0, 1e-6);
+  EXPECT_NEAR(error_s(source(SourceClock::Stamped::kReceived, false), 0.003, milliseconds(9), milliseconds(7)), 0,
+              1e-6);
 }
 
 TEST(FrameStamper, SaysWhetherTheMiddleIsKnown) {

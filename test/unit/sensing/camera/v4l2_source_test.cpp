@@ -8,152 +8,25 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "lodestar/sensing/camera/open_source.hpp"
+#include "support/camera/fake_v4l2_camera.hpp"
 #include "support/camera/heap_frames.hpp"
 
 namespace lodestar {
 namespace {
 
-/// A camera of 64 x 48 at 30 or 60 Hz, as the kernel's documentation has one answer.
-struct FakeCamera : V4l2Port {
-  std::vector<std::uint32_t> formats = {V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG};
-  std::map<std::uint32_t, std::pair<int, int>> ranges = {{V4L2_CID_EXPOSURE_ABSOLUTE, {1, 5000}},
-                                                         {V4L2_CID_EXPOSURE_AUTO, {0, 3}},
-                                                         {V4L2_CID_GAIN, {0, 100}},
-                                                         {V4L2_CID_AUTOGAIN, {0, 1}}};
-  std::set<std::uint32_t> read_only;
-  std::map<std::uint32_t, int> stuck;  ///< controls that answer with this errno when they are set
-  std::map<std::uint32_t, int>& controls;
-  std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-  std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-  v4l2_pix_format format{};
-  std::vector<std::vector<std::uint8_t>> memory;
-  std::deque<std::uint32_t> queue;
-  std::vector<std::uint8_t> picture;  ///< of the next frames
-  std::uint32_t sequence = 0, next_flags = 0, rate_hz = 30;
-  bool streaming = false, unplugged = false;
-  bool wakes = true;  ///< wait() learns when it is unplugged
-
-  explicit FakeCamera(std::map<std::uint32_t, int>& controls_in) : controls(controls_in) {
-    controls = {{V4L2_CID_EXPOSURE_AUTO, 3}, {V4L2_CID_AUTOGAIN, 1}, {V4L2_CID_EXPOSURE_ABSOLUTE, 156}};
-    format.width = 64;
-    format.height = 48;
-    format.pixelformat = formats.front();
-  }
-
-  template <class Structure>
-  static Structure& as(void* argument) {
-    return *static_cast<Structure*>(argument);
-  }
-
-  int control(unsigned long request, void* argument) override {
-    if (unplugged) return ENODEV;
-    switch (request) {
-      case VIDIOC_QUERYCAP:
-        as<v4l2_capability>(argument).capabilities = capabilities;
-        std::strcpy(reinterpret_cast<char*>(as<v4l2_capability>(argument).card), "Fake");
-        return 0;
-      case VIDIOC_QUERYCTRL: {
-        auto& query = as<v4l2_queryctrl>(argument);
-        if (ranges.count(query.id) == 0) return EINVAL;
-        std::tie(query.minimum, query.maximum) = ranges[query.id];
-        std::strcpy(reinterpret_cast<char*>(query.name), "Fake Control");
-        query.flags = read_only.count(query.id) > 0 ? V4L2_CTRL_FLAG_READ_ONLY : 0u;
-        return 0;
-      }
-      case VIDIOC_S_CTRL:
-        if (stuck.count(as<v4l2_control>(argument).id) > 0) return stuck[as<v4l2_control>(argument).id];
-        controls[as<v4l2_control>(argument).id] = as<v4l2_control>(argument).value;
-        return 0;
-      case VIDIOC_G_CTRL:
-        as<v4l2_control>(argument).value = controls[as<v4l2_control>(argument).id];
-        return 0;
-      case VIDIOC_ENUM_FMT:
-        if (as<v4l2_fmtdesc>(argument).index >= formats.size()) return EINVAL;
-        as<v4l2_fmtdesc>(argument).pixelformat = formats[as<v4l2_fmtdesc>(argument).index];
-        return 0;
-      case VIDIOC_ENUM_FRAMESIZES: {
-        auto& size = as<v4l2_frmsizeenum>(argument);
-        if (size.index > 0) return EINVAL;
-        size.type = V4L2_FRMSIZE_TYPE_DISCRETE;
-        size.discrete = {64, 48};
-        return 0;
-      }
-      case VIDIOC_ENUM_FRAMEINTERVALS: {
-        auto& interval = as<v4l2_frmivalenum>(argument);
-        if (interval.index > 1) return EINVAL;
-        interval.type = V4L2_FRMIVAL_TYPE_DISCRETE;
-        interval.discrete = {1, interval.index == 0 ? 30u : 60u};
-        return 0;
-      }
-      case VIDIOC_G_FMT:
-        as<v4l2_format>(argument).fmt.pix = format;
-        return 0;
-      case VIDIOC_S_FMT:
-        format.pixelformat = as<v4l2_format>(argument).fmt.pix.pixelformat;
-        as<v4l2_format>(argument).fmt.pix = format;
-        return 0;
-      case VIDIOC_S_PARM: {
-        auto& interval = as<v4l2_streamparm>(argument).parm.capture.timeperframe;
-        interval = {1, interval.denominator / interval.numerator >= 45 ? 60u : 30u};
-        rate_hz = interval.denominator;
-        return 0;
-      }
-      case VIDIOC_G_PARM:
-        as<v4l2_streamparm>(argument).parm.capture.timeperframe = {1, rate_hz};
-        return 0;
-      case VIDIOC_REQBUFS:
-        memory.assign(as<v4l2_requestbuffers>(argument).count, std::vector<std::uint8_t>(64 * 48 * 2));
-        return 0;
-      case VIDIOC_QUERYBUF: {
-        auto& buffer = as<v4l2_buffer>(argument);
-        buffer.length = static_cast<std::uint32_t>(memory[buffer.index].size());
-        buffer.m.offset = buffer.index;
-        buffer.flags = stamp_flags;
-        return 0;
-      }
-      case VIDIOC_QBUF:
-        queue.push_back(as<v4l2_buffer>(argument).index);
-        as<v4l2_buffer>(argument).sequence = 0;  // as the kernel does: the buffer is a new one
-        as<v4l2_buffer>(argument).timestamp = {};
-        return 0;
-      case VIDIOC_STREAMON:
-        streaming = true;
-        return 0;
-      case VIDIOC_DQBUF: {
-        if (!streaming || queue.empty()) return EAGAIN;
-        auto& buffer = as<v4l2_buffer>(argument);
-        buffer.index = queue.front();
-        queue.pop_front();
-        std::copy(picture.begin(), picture.end(), memory[buffer.index].begin());
-        buffer.bytesused = static_cast<std::uint32_t>(picture.size());
-        buffer.flags = stamp_flags | next_flags;
-        buffer.sequence = sequence++;
-        timespec now{};
-        clock_gettime(CLOCK_MONOTONIC, &now);
-        buffer.timestamp = {now.tv_sec, now.tv_nsec / 1000};
-        return 0;
-      }
-      default:
-        return 0;
-    }
-  }
-  bool wait(Duration) override { return wakes && (unplugged || (streaming && !picture.empty())); }
-  std::uint8_t* map(std::size_t, std::int64_t offset) override {
-    return memory[static_cast<std::size_t>(offset)].data();
-  }
-};
-
 class V4l2SourceTest : public testing::Test {
  protected:
-  SourceInfo start() { return source_.start(settings_, memory_.allocator()); }
+  V4l2SourceTest() {
+    camera_->alive = [this](const std::uint8_t* data) { return memory_.alive(data); };
+    source_.emplace("/dev/fake", std::unique_ptr<V4l2Port>(camera_));
+  }
+  SourceInfo start() { return source_->start(settings_, memory_.allocator()); }
   std::string refusal() {
     try {
       start();
@@ -168,6 +41,27 @@ class V4l2SourceTest : public testing::Test {
       for (int u = 0; u < 64; ++u) image.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(3 * u + v);
     return image;
   }
+  void show_grey() {
+    camera_->formats = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_Y16};
+    const cv::Mat image = grey();
+    camera_->picture.assign(image.data, image.data + 64 * 48);
+  }
+  void expect_copies() {
+    for (int i = 0; i < 10; ++i) {
+      const auto frame = source_->next({});
+      ASSERT_TRUE(frame.ok());
+      EXPECT_TRUE(memory_.gave(frame->memory.data));
+      EXPECT_NE(frame->memory.data, camera_->written);
+      EXPECT_EQ(difference(*frame), 0);
+    }
+  }
+  void expect_ten_incomplete() {
+    camera_->picture.assign(64 * 48, 1);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(source_->next({}).error(), NoFrame::kIncomplete);
+    camera_->picture.assign(64 * 48 * 2, 1);
+    camera_->next_flags = V4L2_BUF_FLAG_ERROR;
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(source_->next({}).error(), NoFrame::kIncomplete);
+  }
   static int difference(const DeviceFrame& frame) {
     const cv::Mat got(frame.height_px, frame.width_px, CV_8UC1, frame.memory.data, frame.stride_bytes);
     double largest = 0;
@@ -176,10 +70,10 @@ class V4l2SourceTest : public testing::Test {
   }
 
   std::map<std::uint32_t, int> controls_;
-  FakeCamera* camera_ = new FakeCamera(controls_);
-  V4l2Source source_{"/dev/fake", std::unique_ptr<V4l2Port>(camera_)};
-  CameraSettings settings_;
   test::HeapFrames memory_;
+  test::FakeV4l2Camera* camera_ = new test::FakeV4l2Camera(controls_);
+  std::optional<V4l2Source> source_;
+  CameraSettings settings_;
 };
 
 TEST_F(V4l2SourceTest, YuyvIsItsLuma) {
@@ -190,7 +84,7 @@ TEST_F(V4l2SourceTest, YuyvIsItsLuma) {
       camera_->picture.push_back(200);  // colour
     }
   for (std::uint32_t i = 0; i < 10; ++i) {  // more than there are buffers
-    const auto frame = source_.next({});
+    const auto frame = source_->next({});
     ASSERT_TRUE(frame.ok());
     EXPECT_EQ(difference(*frame), 0);
     EXPECT_EQ(frame->id, i);
@@ -202,40 +96,129 @@ TEST_F(V4l2SourceTest, MjpegIsDecodedAndBrokenOnesAreIncomplete) {
   settings_.pixel_format = "mjpeg";
   start();
   cv::imencode(".jpg", grey(), camera_->picture, {cv::IMWRITE_JPEG_QUALITY, 100});
-  const auto frame = source_.next({});
+  const auto frame = source_->next({});
   ASSERT_TRUE(frame.ok());
   EXPECT_LE(difference(*frame), 3);
+  constexpr std::uint8_t kStartOfFrame[] = {0xFF, 0xC0, 0x00, 0x0B, 0x08};
+  const auto size =
+      std::search(camera_->picture.begin(), camera_->picture.end(), std::begin(kStartOfFrame), std::end(kStartOfFrame));
+  ASSERT_LT(size + 9, camera_->picture.end());
+  std::fill(size + 5, size + 9, std::uint8_t{0xFF});  // 65535 x 65535
+  EXPECT_EQ(source_->next({}).error(), NoFrame::kIncomplete);
   camera_->picture = {1, 2, 3};
-  EXPECT_EQ(source_.next({}).error(), NoFrame::kIncomplete);
+  EXPECT_EQ(source_->next({}).error(), NoFrame::kIncomplete);
 }
 
-TEST_F(V4l2SourceTest, GreyIsAsItComes) {
-  camera_->formats = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_Y16};
-  start();
-  const cv::Mat image = grey();
-  camera_->picture.assign(image.data, image.data + 64 * 48);
-  const auto frame = source_.next({});
-  ASSERT_TRUE(frame.ok());
-  EXPECT_EQ(difference(*frame), 0);
+TEST_F(V4l2SourceTest, GreyIsWrittenIntoTheFrameByTheKernel) {
+  show_grey();
+  EXPECT_TRUE(start().in_place);
+  for (std::uint32_t i = 0; i < 10; ++i) {  // more than there are buffers
+    const auto frame = source_->next({});
+    ASSERT_TRUE(frame.ok());
+    EXPECT_EQ(frame->memory.data, camera_->written);
+    EXPECT_EQ(difference(*frame), 0);
+    EXPECT_EQ(frame->id, i);
+  }
 }
 
 TEST_F(V4l2SourceTest, Grey16KeepsItsBits) {
   camera_->formats = {V4L2_PIX_FMT_Y16};
-  start();
   camera_->picture.assign(64 * 48 * 2, 0x12);
-  const auto frame = source_.next({});
+  EXPECT_TRUE(start().in_place);
+  const auto frame = source_->next({});
   ASSERT_TRUE(frame.ok());
+  EXPECT_EQ(frame->memory.data, camera_->written);
   EXPECT_EQ(frame->bits, 16);
   EXPECT_EQ(*reinterpret_cast<const std::uint16_t*>(frame->memory.data), 0x1212);
 }
 
-TEST_F(V4l2SourceTest, ShortOrDamagedFramesAreIncompleteAndTheirBuffersComeBack) {
+TEST_F(V4l2SourceTest, PaddedRowsStayWhereTheyAre) {
+  show_grey();
+  cv::Mat padded(48, 80, CV_8UC1, cv::Scalar(0));
+  grey().copyTo(padded.colRange(0, 64));
+  camera_->least_stride_bytes = 80;
+  camera_->picture.assign(padded.data, padded.data + 80 * 48);
   start();
-  camera_->picture.assign(64 * 48, 1);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(source_.next({}).error(), NoFrame::kIncomplete);
-  camera_->picture.assign(64 * 48 * 2, 1);
-  camera_->next_flags = V4L2_BUF_FLAG_ERROR;
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(source_.next({}).error(), NoFrame::kIncomplete);
+  const auto frame = source_->next({});
+  ASSERT_TRUE(frame.ok());
+  EXPECT_EQ(frame->memory.data, camera_->written);
+  EXPECT_EQ(frame->stride_bytes, 80u);
+  EXPECT_EQ(difference(*frame), 0);
+}
+
+TEST_F(V4l2SourceTest, TheKernelNeverWritesIntoAFrameThatSomebodyHolds) {
+  show_grey();
+  start();
+  std::vector<DeviceFrame> held;
+  for (int i = 0; i < 100; ++i) {
+    camera_->picture.assign(64 * 48, static_cast<std::uint8_t>(i));
+    held.push_back(source_->next({}).value());
+  }
+  for (int i = 0; i < 100; ++i) {
+    const DeviceFrame& frame = held[static_cast<std::size_t>(i)];
+    EXPECT_EQ(std::count(frame.memory.data, frame.memory.data + 64 * 48, i), 64 * 48) << i;
+  }
+  held.clear();
+  EXPECT_EQ(memory_.alive(), 4) << "those that the kernel has";
+}
+
+TEST_F(V4l2SourceTest, WhatTheKernelHasIsKeptUntilItIsClosed) {
+  show_grey();
+  start();
+  source_->next({});
+  camera_->unplugged = true;  // it does not even hear that it is to stop
+  EXPECT_THROW(source_->next({}), CameraError);
+  camera_->scribble();
+  source_.reset();
+  EXPECT_EQ(memory_.alive(), 0);
+}
+
+TEST_F(V4l2SourceTest, ADriverWithMemoryOfItsOwnOnlyIsCopiedFrom) {
+  show_grey();
+  camera_->memories = {V4L2_MEMORY_MMAP};
+  EXPECT_FALSE(start().in_place);
+  expect_copies();
+}
+
+TEST_F(V4l2SourceTest, ADriverThatRefusesOurMemoryOnlyWhenItSeesItIsCopiedFrom) {
+  show_grey();
+  camera_->takes_ours = 2;
+  EXPECT_FALSE(start().in_place);
+  EXPECT_EQ(memory_.alive(), 0);
+  expect_copies();
+}
+
+TEST_F(V4l2SourceTest, ADriverThatTakesOurMemoryOnlyIsNoFault) {
+  show_grey();
+  camera_->memories = {V4L2_MEMORY_USERPTR};
+  EXPECT_TRUE(start().in_place);
+}
+
+TEST_F(V4l2SourceTest, ADriverWithoutBuffersIsAnError) {
+  show_grey();
+  camera_->memories = {};
+  EXPECT_THROW(start(), CameraError);
+}
+
+TEST_F(V4l2SourceTest, ABufferThatCannotBeHandedOverMidwayIsAnError) {
+  show_grey();
+  camera_->takes_ours = 6;
+  start();
+  EXPECT_TRUE(source_->next({}).ok());
+  EXPECT_TRUE(source_->next({}).ok());
+  EXPECT_THROW(source_->next({}), CameraError);
+}
+
+TEST_F(V4l2SourceTest, ShortOrDamagedFramesAreIncompleteAndTheirBuffersComeBack) {
+  EXPECT_FALSE(start().in_place) << "luma has to be picked out";
+  expect_ten_incomplete();
+}
+
+TEST_F(V4l2SourceTest, ShortOrDamagedFramesInOurMemoryToo) {
+  camera_->formats = {V4L2_PIX_FMT_Y16};
+  EXPECT_TRUE(start().in_place);
+  expect_ten_incomplete();
+  EXPECT_EQ(memory_.alive(), 4);
 }
 
 TEST_F(V4l2SourceTest, NothingIsAutomatic) {
@@ -303,11 +286,11 @@ TEST_F(V4l2SourceTest, WhatIsNoCameraIsRefused) {
 
 TEST_F(V4l2SourceTest, UnpluggedIsAnError) {
   start();
-  EXPECT_EQ(source_.next({}).error(), NoFrame::kTimeout);
+  EXPECT_EQ(source_->next({}).error(), NoFrame::kTimeout);
   camera_->unplugged = true;
-  EXPECT_THROW(source_.next({}), CameraError);
+  EXPECT_THROW(source_->next({}), CameraError);
   camera_->wakes = false;
-  EXPECT_THROW(source_.next({}), CameraError) << "a camera is asked";
+  EXPECT_THROW(source_->next({}), CameraError) << "a camera is asked";
 }
 
 TEST(V4l2, DevicesThatAreNone) {
@@ -348,6 +331,13 @@ CameraHere camera_of_this_machine() {
   return {"", faults};
 }
 
+std::vector<DeviceFrame> ten_frames(FrameSource& source) {
+  std::vector<DeviceFrame> frames;
+  for (int tries = 0; frames.size() < 10 && tries < 20; ++tries)
+    if (const auto frame = source.next(std::chrono::seconds(1))) frames.push_back(*frame);
+  return frames;
+}
+
 // Where a machine has a camera: the kernel itself instead of the fake. Test patterns will do (modprobe vivid).
 TEST(V4l2, TheFirstCameraOfThisMachineStreams) {
   const CameraHere here = camera_of_this_machine();
@@ -359,9 +349,7 @@ TEST(V4l2, TheFirstCameraOfThisMachineStreams) {
 
   const auto source = open_source("v4l2:" + here.device);
   const SourceInfo info = source->start({}, memory.allocator());
-  std::vector<DeviceFrame> frames;
-  for (int tries = 0; frames.size() < 10 && tries < 20; ++tries)
-    if (const auto frame = source->next(std::chrono::seconds(1))) frames.push_back(*frame);
+  const auto frames = ten_frames(*source);
   ASSERT_EQ(frames.size(), 10u) << info.name;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_TRUE(memory.gave(frames[i].memory.data));
@@ -369,6 +357,73 @@ TEST(V4l2, TheFirstCameraOfThisMachineStreams) {
     if (i == 0) continue;
     EXPECT_GT(frames[i].id, frames[i - 1].id);
     EXPECT_GT(frames[i].ticks, frames[i - 1].ticks);
+  }
+}
+
+/// The kernel, and where of ours it was told to write.
+struct WatchedPort : V4l2Port {
+  std::unique_ptr<V4l2Port> kernel;
+  bool takes_ours;
+  std::set<const std::uint8_t*> handed;
+
+  WatchedPort(const std::string& device, bool takes_ours_in)
+      : kernel(open_v4l2_port(device)), takes_ours(takes_ours_in) {}
+  int control(unsigned long request, void* argument) override {
+    if (request == VIDIOC_REQBUFS && static_cast<v4l2_requestbuffers*>(argument)->memory == V4L2_MEMORY_USERPTR &&
+        !takes_ours)
+      return EINVAL;
+    if (request == VIDIOC_QBUF && static_cast<v4l2_buffer*>(argument)->memory == V4L2_MEMORY_USERPTR)
+      handed.insert(reinterpret_cast<const std::uint8_t*>(static_cast<v4l2_buffer*>(argument)->m.userptr));
+    return kernel->control(request, argument);
+  }
+  bool wait(Duration timeout) override { return kernel->wait(timeout); }
+  std::uint8_t* map(std::size_t bytes, std::int64_t offset) override { return kernel->map(bytes, offset); }
+};
+
+std::vector<DeviceFrame> watch(const std::string& device, const std::string& pixel_format, bool takes_ours,
+                               test::HeapFrames& memory) {
+  auto port = std::make_unique<WatchedPort>(device, takes_ours);
+  const WatchedPort& watched = *port;
+  V4l2Source source(device, std::move(port));
+  CameraSettings settings;
+  settings.pixel_format = pixel_format;
+  EXPECT_EQ(source.start(settings, memory.allocator()).in_place, takes_ours);
+  auto frames = ten_frames(source);
+  for (const DeviceFrame& frame : frames) EXPECT_EQ(watched.handed.count(frame.memory.data) > 0, takes_ours);
+  return frames;
+}
+
+// Its pictures stand still but for a text, so that both ways have to bring the same.
+TEST(V4l2, VividWritesIntoOurMemoryWhatElseIsCopied) {
+  const CameraHere here = camera_of_this_machine();
+  if (here.device.empty()) GTEST_SKIP() << here.why_not;
+  v4l2_capability capability{};
+  constexpr std::uint32_t kTextMode = 0x00f0f001;  // VIVID_CID_OSD_TEXT_MODE, in no header that is installed
+  v4l2_control no_text{kTextMode, 2};
+  const auto port = open_v4l2_port(here.device);
+  port->control(VIDIOC_QUERYCAP, &capability);
+  if (std::strcmp(reinterpret_cast<const char*>(capability.driver), "vivid") != 0)
+    GTEST_SKIP() << here.device << " is no vivid";
+  ASSERT_EQ(port->control(VIDIOC_S_CTRL, &no_text), 0);
+
+  test::HeapFrames memory;
+  for (const std::string pixel_format : {"mono8", "mono16"}) {
+    SCOPED_TRACE(pixel_format);
+    const auto copied = watch(here.device, pixel_format, false, memory);
+    const auto written = watch(here.device, pixel_format, true, memory);
+    ASSERT_EQ(copied.size(), 10u);
+    ASSERT_EQ(written.size(), 10u);
+    const DeviceFrame& first = copied.front();
+    const std::size_t bytes = first.stride_bytes * static_cast<std::size_t>(first.height_px);
+    EXPECT_NE(std::count(first.memory.data, first.memory.data + bytes, first.memory.data[0]),
+              static_cast<std::ptrdiff_t>(bytes));
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      ASSERT_EQ(written[i].stride_bytes, first.stride_bytes);
+      EXPECT_EQ(std::memcmp(written[i].memory.data, first.memory.data, bytes), 0) << i;
+      if (i == 0) continue;
+      EXPECT_GT(written[i].id, written[i - 1].id);
+      EXPECT_GT(written[i].ticks, written[i - 1].ticks);
+    }
   }
 }
 

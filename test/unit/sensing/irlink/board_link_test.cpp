@@ -58,13 +58,17 @@ TEST(BoardLink, without_the_boards_time_there_is_no_frame) {
 TEST(BoardLink, a_board_that_lies_about_the_time_is_not_believed) {
   Board board;
   board.time(1000);
-  for (const double lie_s : {-1000.0, -5.0, 1.0, 1e6}) {
+  for (const double lie_s : {-1000.0, -5.0, 1.0, 1e6, 8e9, -8e9}) {
     BoardFrame frame;
     frame.time_ns = Board::ticks(1000) + static_cast<std::uint64_t>(static_cast<std::int64_t>(lie_s * 1e9));
     board.send(frame, 1000.1);
   }
   EXPECT_TRUE(board.heard_.empty());
-  EXPECT_EQ(board.link_.frame_drops()[LinkDrop::kTime], 4u);
+  EXPECT_EQ(board.link_.frame_drops()[LinkDrop::kTime], 6u);
+  board.send(BoardTime{Board::ticks(8e9)}, 1000.6);
+  board.time(1001);
+  board.frame(1001.5);
+  EXPECT_EQ(board.heard_.size(), 1u);
 }
 
 TEST(BoardLink, a_flood_is_cut_to_what_a_site_can_send) {

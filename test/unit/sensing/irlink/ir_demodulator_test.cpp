@@ -143,6 +143,19 @@ TEST(IrDemodulator, stamps_that_tremble_are_no_gap) {
   EXPECT_TRUE(air.decodes(0, said));
 }
 
+TEST(IrDemodulator, a_rate_that_trembles_cuts_no_frame) {
+  Air air;
+  const Announcement said = air.send(0.01);
+  for (int i = 0; i < 20; ++i) {
+    IrSampleBlock block = air.sampler_.next(500, kStart + from_seconds(air.sampler_.time_s()));
+    block.sample_rate_hz *= 1 + 20e-6 * (i % 3);
+    air.demodulator_.process(block, [&](const RawIrFrame& frame) { air.heard_.push_back(frame); });
+  }
+  EXPECT_EQ(air.demodulator_.gaps(), 0u);
+  ASSERT_EQ(air.heard_.size(), 1u);
+  EXPECT_TRUE(air.decodes(0, said));
+}
+
 TEST(IrDemodulator, blocks_that_cannot_be_heard_are_dropped_by_their_reason) {
   IrDemodulator demodulator(kBitRate_bps, kFullScale_counts);
   const auto refused = [&](double rate_hz, int channels, std::size_t samples) {
