@@ -217,12 +217,21 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   // Set down while localization coasts.
   work(true);
   event(5);
-  PoseIntegrity integrity;
-  integrity.mode = PoseIntegrity::COASTING;
-  integrity_.publish(integrity);
-  ASSERT_TRUE(wait_for([&] { return integrity_.getNumSubscribers() > 0; }));
-  integrity_.publish(integrity);
-  ros::WallDuration(0.1).sleep();
+  const auto told = [&](std::uint8_t mode, bool coasting) {
+    return wait_for([&] {
+      tick(0.05);
+      PoseIntegrity integrity;
+      integrity.header.stamp = pose_message_.header.stamp = now_;
+      integrity.mode = mode;
+      integrity_.publish(integrity);
+      pose_.publish(pose_message_);
+      return state_.last().pallets.at(0).coasting == coasting;
+    });
+  };
+  EXPECT_TRUE(told(PoseIntegrity::COASTING, true));
+  EXPECT_TRUE(told(PoseIntegrity::TRACKING, false));
+  EXPECT_TRUE(told(PoseIntegrity::COASTING, true));
+  work(true);
   work(false);
   EXPECT_TRUE(event(6).pallet.coasting);
 

@@ -212,7 +212,7 @@ class BlockStore {
     for (int i = 0; i < 10; ++i) {
       now_ += std::chrono::milliseconds(50);
       pose.stamp = now_;
-      tracker_.add_pose(pose, false);
+      tracker_.add_pose(pose);
       for (PalletChange& change : tell_load(told_height_m, i < 3 ? !lifted : lifted, i < 3 ? "" : label))
         changes.push_back(std::move(change));
     }

@@ -29,7 +29,8 @@ class PalletLineRun {
       const auto outcome = sim::feed(line, *event);
       if (!outcome || !outcome->estimate) continue;
       pose_ = *outcome->estimate;
-      tracker_.add_pose(pose_, line.fusion().filter().mode() != FilterMode::kTracking);
+      tracker_.add_pose(pose_);
+      tracker_.add_integrity(pose_.stamp, line.fusion().filter().mode() == FilterMode::kTracking);
     }
     return tally_;
   }

@@ -51,7 +51,8 @@ class PalletTruck {
   PalletTracker::Changes load(bool present, const std::string& label = "") {
     now += std::chrono::milliseconds(50);
     pose_.stamp = now;
-    if (has_pose) tracker.add_pose(pose_, coasting);
+    if (has_pose) tracker.add_pose(pose_);
+    if (has_integrity) tracker.add_integrity(now, !coasting);
     return tracker.add_load({now, height_m_, present, label});
   }
 
@@ -62,7 +63,7 @@ class PalletTruck {
   }
 
   PalletTracker tracker;
-  bool has_pose = true, coasting = false;
+  bool has_pose = true, has_integrity = true, coasting = false;
   Stamp now{std::chrono::seconds(1000)};
 
  private:

@@ -63,8 +63,8 @@ void PalletTracker::reset_time() {
   poses_.clear();
 }
 
-std::optional<PalletDrop> PalletTracker::add_pose(const PoseEstimate& pose, bool coasting) {
-  if (poses_.add(pose, coasting)) return std::nullopt;
+std::optional<PalletDrop> PalletTracker::add_pose(const PoseEstimate& pose) {
+  if (poses_.add(pose)) return std::nullopt;
   drops_.add(PalletDrop::kLatePose);
   return PalletDrop::kLatePose;
 }

@@ -35,9 +35,7 @@ void PalletTrackingNodelet::onInit() {
                                                [this](const PalletTracker::Changes& changes) { tell(changes); });
   tell_state();
   pose_ = nh.subscribe("pose", 50, &PalletTrackingNodelet::take_pose, this);
-  integrity_ = nh.subscribe<PoseIntegrity>("pose/integrity", 50, [this](const PoseIntegrityConstPtr& message) {
-    coasting_ = message->mode != PoseIntegrity::TRACKING;
-  });
+  integrity_ = nh.subscribe("pose/integrity", 50, &PalletTrackingNodelet::take_integrity, this);
   load_ = nh.subscribe("load", 100, &PalletTrackingNodelet::take_load, this);
 }
 
@@ -70,10 +68,16 @@ void PalletTrackingNodelet::take_pose(const geometry_msgs::PoseWithCovarianceSta
     if (T_base_fork) tracker_->set_fork(*T_base_fork);
     fork_known_ = T_base_fork.has_value();
   }
-  tracker_->add_pose(*pose, coasting_);
+  tracker_->add_pose(*pose);
   newest_ = pose->stamp;
   const bool due = newest_ < told_ || seconds(newest_ - told_) > 1 / state_rate_hz_;
   if (!tracker_->carried().empty() && due) tell_state();
+}
+
+void PalletTrackingNodelet::take_integrity(const PoseIntegrityConstPtr& message) {
+  if (message->header.stamp.isZero()) return;  // there is no pose that it could be said of
+  if (!edge_->admit(message->header.stamp)) return;
+  tracker_->add_integrity(stamp_from(message->header.stamp), message->mode == PoseIntegrity::TRACKING);
 }
 
 void PalletTrackingNodelet::take_load(const LoadStateConstPtr& message) {

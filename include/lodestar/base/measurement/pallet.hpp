@@ -29,7 +29,7 @@ struct Pallet {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< as PoseEstimate's
   int level = 0;          ///< 0: on the floor; else how many pallets or rack levels are below
   std::string zone;       ///< code of the site's zone that it stands in; empty: in none
-  bool coasting = false;  ///< its pose was taken while localization had no beacon: the covariance says how good it is
+  bool coasting = false;  ///< localization had no beacon then, or did not say: the covariance says how good it is
 };
 
 enum class PalletChangeKind : std::uint8_t {

@@ -17,7 +17,8 @@
 namespace lodestar {
 
 struct PalletTrackerParams {
-  std::vector<PalletSize> sizes = {PalletSize{"epal"}};  ///< one at least; the first is what a new pallet is, where its zone has no other
+  std::vector<PalletSize> sizes = {
+      PalletSize{"epal"}};  ///< one at least; the first is what a new pallet is, where its zone has no other
   std::vector<Zone> zones;
   ForkSigmas sigmas;
   LoadWatchParams load;
@@ -60,8 +61,9 @@ class PalletTracker {
   /// Takes up what an earlier tracker knew: its ledger().kept(), and what was on the fork, from below.
   void restore(const Changes& kept, const std::vector<CarriedPallet>& carried);
 
-  /// @param coasting localization has no beacon
-  std::optional<PalletDrop> add_pose(const PoseEstimate& pose, bool coasting);
+  std::optional<PalletDrop> add_pose(const PoseEstimate& pose);
+  /// Whether localization has beacons from this instant on; a pose without a word of the last pose_age_max_s coasts.
+  void add_integrity(Stamp stamp, bool tracking) { poses_.add_word(stamp, tracking); }
   Changes add_load(const LoadSample& sample);
   Result<Changes, CorrectionFault> correct(const PalletCorrection& correction);
 

@@ -21,6 +21,7 @@ class PalletTrackingNodelet : public nodelet::Nodelet {
   void onInit() override;
   void make_tracker();
   void take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
+  void take_integrity(const PoseIntegrityConstPtr& message);
   void take_load(const LoadStateConstPtr& message);
   void tell(const PalletTracker::Changes& changes);
   void tell_state();
@@ -35,7 +36,6 @@ class PalletTrackingNodelet : public nodelet::Nodelet {
   StreamWatch* pose_watch_ = nullptr;
   StreamWatch* load_watch_ = nullptr;
   bool fork_known_ = false;
-  bool coasting_ = false;
   Stamp newest_, told_;  ///< of pose and load samples; of the last state that was told
   ros::Publisher events_, state_;
   ros::Subscriber pose_, integrity_, load_;

@@ -216,6 +216,35 @@ TEST(PalletTracker, marks_what_was_set_down_while_localization_coasts) {
   EXPECT_EQ(pallet.state, PalletState::kStanding);
 }
 
+/// A load counts as set down 0.3 s after it was: what localization says by then is another pose's.
+TEST(PalletTracker, coasting_is_that_of_the_instant) {
+  PalletTruck truck;
+  const auto set_down = [&](bool then, bool later) {
+    truck.coasting = false;
+    truck.stand(100, 0);
+    truck.lift();
+    truck.stand(0, 0);
+    truck.coasting = then;
+    truck.load(true);
+    truck.load(false);
+    truck.coasting = later;
+    return truck.lower().at(0).pallet.coasting;
+  };
+  EXPECT_FALSE(set_down(false, true));
+  EXPECT_TRUE(set_down(true, false));
+  EXPECT_FALSE(set_down(false, false));
+}
+
+TEST(PalletTracker, coasts_where_localization_says_nothing) {
+  PalletTruck truck;
+  truck.has_integrity = false;
+  truck.bring(0, 0);
+  EXPECT_TRUE(truck.pallet("id1").coasting) << "what was said in the beginning is old";
+  truck.has_integrity = true;
+  truck.bring(5, 0);
+  EXPECT_FALSE(truck.pallet("id2").coasting);
+}
+
 TEST(PalletTracker, loses_no_pallet_without_a_pose) {
   PalletTruck truck;
   truck.stand(0, 0);
@@ -247,7 +276,7 @@ TEST(PalletTracker, drops_and_counts_what_it_cannot_use) {
   EXPECT_EQ(truck.tracker.drops()[PalletDrop::kLateLoad], 2u);
   PoseEstimate late;
   late.stamp = truck.now - std::chrono::seconds(1);
-  EXPECT_EQ(truck.tracker.add_pose(late, false), PalletDrop::kLatePose);
+  EXPECT_EQ(truck.tracker.add_pose(late), PalletDrop::kLatePose);
   truck.load(true, PalletTruck::sscc(1));
   truck.load(true, PalletTruck::sscc(2));
   EXPECT_EQ(truck.tracker.drops()[PalletDrop::kLabelConflict], 1u);
