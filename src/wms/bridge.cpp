@@ -1,5 +1,7 @@
 #include "lodestar/wms/bridge.hpp"
 
+#include <utility>
+
 #include "lodestar/base/measurement/sscc.hpp"
 #include "lodestar/wms/gs1.hpp"
 #include "lodestar/wms/random_uuid.hpp"
@@ -64,6 +66,12 @@ void Bridge::take(PalletChange change, const ClockReading& now) {
   if (waiting_.size() >= params_.most_in_memory) return drops_.add(BridgeDrop::kLost);
   waiting_.push_back({std::move(change), {now.synchronised, {}}});
   if (waiting_.size() == 1) with_store(now, [this] { record_waiting(); });
+}
+
+std::vector<PalletChange> Bridge::give_back() {
+  std::vector<PalletChange> out;
+  for (Waiting& waiting : std::exchange(waiting_, {})) out.push_back(std::move(waiting.change));
+  return out;
 }
 
 void Bridge::record_waiting() {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "lodestar/base/common/drop_counts.hpp"
 #include "lodestar/base/common/fault.hpp"
@@ -49,6 +50,8 @@ class Bridge {
   Bridge(const BridgeParams& params, MessageLink& link, const ClockReading& now);
 
   void take(PalletChange change, const ClockReading& now);
+  /// What was taken and is not recorded, to be taken again in its place: a new store knows nothing of what was before.
+  std::vector<PalletChange> give_back();
   Telemetry& telemetry() { return telemetry_; }
   void poll(const ClockReading& now);
   /// Says farewell to the broker.

@@ -85,11 +85,15 @@ void WmsBridgeNodelet::poll() {
   catch_up();
 }
 
-/// A damaged store makes room for one that knows nothing.
-void WmsBridgeNodelet::follow_store() {
-  if (stream_ == bridge_->store().stream()) return;
+/// A damaged store makes room for one that knows nothing: what it did not record comes after what the tracker still
+/// knows of the time before.
+/// @return whether it is another store
+bool WmsBridgeNodelet::follow_store() {
+  if (stream_ == bridge_->store().stream()) return false;
   stream_ = bridge_->store().stream();
   intake_.resume_after(bridge_->store().last_heard());
+  for (const PalletChange& change : bridge_->give_back()) intake_.hear(pallet_event_message(change, map_frame_));
+  return true;
 }
 
 /// What was told while nobody listened, or written down by a node that died before it told it, comes with the answer.
@@ -103,7 +107,15 @@ void WmsBridgeNodelet::catch_up() {
       intake_.refused(clocks().monotonic);
     }
   }
-  for (const PalletEvent& event : intake_.take()) record(event);
+  bool damaged = false;
+  for (PalletEvent& event : intake_.take()) {
+    if (damaged) {
+      intake_.hear(std::move(event));
+      continue;
+    }
+    record(event);
+    damaged = follow_store();
+  }
 }
 
 void WmsBridgeNodelet::record(const PalletEvent& message) {

@@ -29,7 +29,7 @@ class WmsBridgeNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
   void poll();
-  void follow_store();
+  bool follow_store();
   void catch_up();
   void record(const PalletEvent& message);
   void take_event(const PalletEventConstPtr& message);
