@@ -15,9 +15,8 @@ constexpr int kTileRows = 16;       ///< a tile is one segment wide and 16 cells
 constexpr int kMarksAtOnce = 8;     ///< looked through
 constexpr double kReachSigmas = 8;  ///< a difference is clipped here
 constexpr double kRisenSigmas = 6;
-constexpr float kFirstLimit = 4.5f;  ///< of a spot's energy, sigmas
+constexpr float kFirstLimit = 4.5f;  ///< of a cell's energy, sigmas
 constexpr float kLeastLimit = 2.5f;
-constexpr float kPeakShare = 0.85f;                       ///< of the limit, that the spot's strongest cell must reach
 constexpr float kExcessForgets = 0.005f;                  ///< a frame, of what a passing disturbance has raised
 constexpr float kExcessStep = 0.05f, kLimitStep = 0.05f;  ///< a search in vain adds: a share, and at least
 constexpr int kNoiseSample = 256;                         ///< cells a frame
@@ -91,7 +90,7 @@ void ChangeScan::start(const Image& image, Planes<Lane>& planes) {
   rows_ = image.height_px / 2;
   bits_ = image.bits;
   segments_ = (columns_ + kSegment - 1) / kSegment;
-  budget_ = 2 + columns_ * rows_ / 16384;
+  budget_ = 1 + columns_ * rows_ / 32768;
   const auto cells = static_cast<std::size_t>(segments_ * kSegment) * static_cast<std::size_t>(rows_);
   for (auto& plane : planes.cells) plane.assign(cells, 0);
   planes.energy.assign(cells, 0);
@@ -177,8 +176,8 @@ void ChangeScan::lower_limits(Planes<Lane>& planes) {
   for (std::size_t i = 0; i < tile_limit_.size(); ++i) {
     const float excess = std::max(0.0f, tile_limit_[i] - kFirstLimit);
     tile_limit_[i] = std::max(kLeastLimit, tile_limit_[i] - sink - kExcessForgets * excess);
-    const float peak = energy_mean_ + kPeakShare * tile_limit_[i] * energy_sigma_;
-    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, peak));
+    const float energy = energy_mean_ + tile_limit_[i] * energy_sigma_;
+    planes.limit[i] = static_cast<Lane>(std::min(32000.0f, energy));
   }
 }
 
@@ -203,21 +202,6 @@ void ChangeScan::measure_noise(const Plane<Lane>& now, const Plane<Lane>& before
   for (int i = 0; i < 20; ++i) {
     cell_variance_ = std::max(kLeastCellVariance, clipped_mean(16 * kNoiseSample, cell_variance_, next_square));
   }
-}
-
-template <class Lane>
-float ChangeScan::spot_energy(const Lane* cell, std::ptrdiff_t stride) const {
-  const auto excess = [&](std::ptrdiff_t at) { return (static_cast<float>(cell[at]) - energy_mean_) / energy_sigma_; };
-  const float alone = excess(0);
-  float most = alone;
-  for (const std::ptrdiff_t side : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}}) {
-    for (const std::ptrdiff_t end : {-stride, stride}) {
-      const float beside = excess(side), above = excess(end), across = excess(side + end);
-      most = std::max(
-          {most, (alone + std::max(beside, above)) * std::sqrt(0.5f), (alone + beside + above + across) * 0.5f});
-    }
-  }
-  return most;
 }
 
 template <class Lane>
@@ -289,10 +273,7 @@ void ChangeScan::collect_restless(const Planes<Lane>& planes) {
       kFlagRestless, [&](std::ptrdiff_t i) { return planes.energy.data()[i]; },
       [&](std::size_t tile) { return planes.limit[tile]; },
       [&](const Eigen::Vector2i& pixel, std::ptrdiff_t i) {
-        const float size = spot_energy(planes.energy.data() + i, segments_ * kSegment);
-        const Eigen::Vector2i cell = pixel / 2;
-        if (size <= tile_limit_[tile(cell.x(), cell.y())]) return;
-        restless_.push_back({pixel, size});
+        restless_.push_back({pixel, (static_cast<float>(planes.energy.data()[i]) - energy_mean_) / energy_sigma_});
       });
   std::sort(restless_.begin(), restless_.end(), is_larger);
 }

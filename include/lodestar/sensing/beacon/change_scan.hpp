@@ -33,12 +33,11 @@ class ChangeScan {
 
   struct Change {
     Eigen::Vector2i pixel;  ///< upper left one of the cell
-    float size;             ///< in sigmas of a cell's difference (risen), or of a spot's energy (restless)
+    float size;             ///< in sigmas of a cell's difference (risen), or of its energy (restless)
   };
   /// Cells that are brighter than `lag` frames ago by 6 sigma, and more so than their neighbours.
   const std::vector<Change>& risen() const { return risen_; }
-  /// Cells whose energy is above their neighbours' and, alone or with those that a spot on its border shines on, passes
-  /// the limit. Strongest first.
+  /// Cells whose energy passes the limit and is above their neighbours'. Strongest first.
   const std::vector<Change>& restless();
 
   /// Something was found at this pixel, or nothing: both set the energy around it to that of noise. Nothing raises the
@@ -76,10 +75,6 @@ class ChangeScan {
   void start(const Image& image, Planes<Lane>& planes);
   template <class Lane>
   void measure_noise(const Plane<Lane>& now, const Plane<Lane>& before);
-  /// The most that a cell holds alone, with a neighbour, or with the three around one of its corners: a spot on a
-  /// border of cells shines on two or four of them. Each sum in sigmas of its own.
-  template <class Lane>
-  float spot_energy(const Lane* cell, std::ptrdiff_t stride) const;
   /// The median energy of the cells three away. Most of them, so that another light among them does not count.
   template <class Lane>
   float energy_around(const Planes<Lane>& planes, const Eigen::Vector2i& cell) const;
