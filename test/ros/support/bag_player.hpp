@@ -134,7 +134,7 @@ class BagPlayer {
     if (message.getTopic() != "/camera/image_raw") return;
     if (!answers_) return;
     // Whoever answered the image before will answer this one; whoever did not may never.
-    answering_ = wait_for([&] { return answers_() > before; }, answering_ ? 3.0 : 0.1);
+    answering_ = wait_for([&] { return answers_() > before; }, answering_ ? 30.0 : 0.1);
   }
 
   rosbag::Bag bag_;
