@@ -8,9 +8,14 @@
 
 namespace lodestar::test {
 
+/// Together: a machine that stops between the two would look like one whose clock was set.
 inline ClockReading clocks() {
-  return {Stamp(std::chrono::system_clock::now().time_since_epoch()),
-          Instant(std::chrono::steady_clock::now().time_since_epoch())};
+  for (;;) {
+    const auto before = std::chrono::steady_clock::now();
+    const Stamp wall(std::chrono::system_clock::now().time_since_epoch());
+    const auto after = std::chrono::steady_clock::now();
+    if (after - before < std::chrono::milliseconds(10)) return {wall, Instant(after.time_since_epoch())};
+  }
 }
 
 /// Calls step() until done() or the limit. @return whether done() came true
