@@ -231,7 +231,8 @@ TEST(CameraConsistency, AFrameIsCheap) {
   }
   EXPECT_NE(sum, 0);
   RecordProperty("frame_ms", std::to_string(frame_ms));
-  EXPECT_LT(frame_ms, numbers_ms) << "the noise of each pixel drawn by the standard library";
+  EXPECT_LT(frame_ms, 5 * numbers_ms) << "the noise of each pixel drawn by the standard library takes some fifteen "
+                                         "frames' time in Release; the margin is for debug builds and sanitizers";
 }
 
 }  // namespace
