@@ -31,11 +31,17 @@ class BeaconDetection : public testing::Test {
   }
   /// Four named beacons in one window, after now.
   bool sees_all_beacons() {
-    const std::size_t from = sightings_.size();
-    player_.play(1.0);
-    for (std::size_t i = from; i < sightings_.size(); ++i)
-      if (named(*sightings_.all()[i]) == 4) return true;
-    return false;
+    std::size_t next = sightings_.size();
+    return player_.play_until([&] {
+      for (; next < sightings_.size(); ++next)
+        if (named(*sightings_.all()[next]) == 4) return true;
+      return false;
+    });
+  }
+  /// Whatever the node made of images was heard.
+  bool all_is_heard() {
+    return wait_for(
+        [&] { return diagnostics_.count(kNode, "sightings count") == static_cast<long>(sightings_.size()); });
   }
   static int named(const BeaconSightingArray& array) {
     int count = 0;
@@ -60,7 +66,7 @@ TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
   player_.on<sensor_msgs::CameraInfo>("/camera/camera_info", [](const auto&) { return false; });
   player_.play(1.0);  // the first 21 tell the frame rate
   EXPECT_TRUE(dropped(name(EdgeDrop::kNoCameraInfo), 10));
-  EXPECT_GE(diagnostics_.level(kNode), 1);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.level(kNode) >= 1; }));
 
   // A calibration of NaN is no calibration.
   auto nan_info = player_.sample<sensor_msgs::CameraInfo>("/camera/camera_info");
@@ -75,10 +81,6 @@ TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
   EXPECT_TRUE(sightings_.empty());
 
   player_.send_mounts();
-  ASSERT_TRUE(wait_for([&] {
-    player_.play(0.1);
-    return !sightings_.empty() || player_.at_end();
-  }));
   ASSERT_TRUE(sees_all_beacons());
   const BeaconSightingArray& last = sightings_.last();
   EXPECT_EQ(last.header.frame_id, "camera_optical_frame");
@@ -91,14 +93,15 @@ TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
     EXPECT_GT(sighting.snr_db, 6);
     EXPECT_GT(sighting.covariance_px2[0], 0);
   }
-  EXPECT_TRUE(wait_for([&] { return diagnostics_.level(kNode) == 0; })) << diagnostics_.message(kNode);
+  EXPECT_TRUE(player_.play_until([&] { return diagnostics_.level(kNode) == 0; })) << diagnostics_.message(kNode);
 
   // Bad images, each of its kind.
-  const std::size_t before = sightings_.size();
   auto truncated = image_now();
   truncated.data.resize(truncated.data.size() / 2);
   send(truncated);
   EXPECT_TRUE(dropped(name(MessageDrop::kTruncated), 1));
+  ASSERT_TRUE(all_is_heard());  // also of the images before this one
+  const std::size_t before = sightings_.size();
   auto coloured = image_now();
   coloured.encoding = "rgb8";
   send(coloured);
@@ -125,6 +128,7 @@ TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
   EXPECT_TRUE(dropped(name(EdgeDrop::kTimeStep), 1));
   player_.publish("/camera/camera_info", nan_info);
   EXPECT_TRUE(dropped(name(EdgeDrop::kCameraInfo), 2));
+  ASSERT_TRUE(all_is_heard());
   EXPECT_EQ(sightings_.size(), before);
 
   // The line goes on, and images need no camera_info of their own.
@@ -133,8 +137,7 @@ TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
 
   // The clock jumps back.
   player_.rewind();
-  player_.play(1.0);
-  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
+  EXPECT_TRUE(player_.play_until([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
   EXPECT_TRUE(sees_all_beacons());
   EXPECT_EQ(diagnostics_.hardware_id(kNode), "truck");
 
@@ -145,9 +148,8 @@ TEST_F(BeaconDetection, SeesAndNamesBeaconsAndOutlivesBadInput) {
 TEST_F(BeaconDetection, TonesThatDoNotSuitTheMeasuredRateStopTheSearch) {
   const char* const alias = "beacon_detection_alias";
   player_.send_mounts();
-  player_.play(1.5);  // the first 21 images tell the frame rate
-  EXPECT_TRUE(
-      wait_for([&] { return diagnostics_.count(alias, std::string("dropped: ") + name(EdgeDrop::kTones)) >= 5; }));
+  EXPECT_TRUE(player_.play_until(  // the first 21 images tell the frame rate
+      [&] { return diagnostics_.count(alias, std::string("dropped: ") + name(EdgeDrop::kTones)) >= 5; }));
   EXPECT_EQ(diagnostics_.level(alias), 2);
   EXPECT_NE(diagnostics_.message(alias).find("site_alias.yaml:3"), std::string::npos) << diagnostics_.message(alias);
 }

@@ -98,8 +98,8 @@ class CameraCapture : public testing::Test {
     const std::size_t before = images_.size();
     return wait_for([&] { return images_.size() >= before + count; });
   }
-  bool told(const std::string& words, double limit_s) {
-    return wait_for([&] { return diagnostics_.message(kNode).find(words) != std::string::npos; }, limit_s);
+  bool told(const std::string& words) {
+    return wait_for([&] { return diagnostics_.message(kNode).find(words) != std::string::npos; }, 50);
   }
 
   std::string folder_;
@@ -112,21 +112,26 @@ class CameraCapture : public testing::Test {
 
 TEST_F(CameraCapture, PicturesOnDiskWithTheirCalibration) {
   write_calibration(64);
-  set("rate_hz", 100);
+  set("rate_hz", 20);
+  const ros::Time before = ros::Time::now();
   ASSERT_TRUE(load(write_pictures(4) + "?loop"));
-  ASSERT_TRUE(more_images(60));
+  ASSERT_TRUE(more_images(20));
   const sensor_msgs::Image& image = images_.last();
   EXPECT_EQ(image.encoding, "mono8");
   EXPECT_EQ(image.header.frame_id, "camera_optical_frame");
   EXPECT_EQ(image.width, 64u);
   EXPECT_EQ(image.data[0] % 10, 0);
-  EXPECT_LT(std::abs((ros::Time::now() - image.header.stamp).toSec()), 5);
+  EXPECT_GE(image.header.stamp, before);
+  EXPECT_LE(image.header.stamp, ros::Time::now());
+  ASSERT_TRUE(wait_for([&] { return !infos_.empty(); }));
   EXPECT_EQ(infos_.last().distortion_model, "equidistant");
   EXPECT_EQ(infos_.last().K[2], 31.5);
   EXPECT_EQ(infos_.all().front()->header.stamp, images_.all().front()->header.stamp);
-  ASSERT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "images count") > 0; }));
-  EXPECT_EQ(diagnostics_.level(kNode), 0) << diagnostics_.message(kNode);
-  EXPECT_NEAR(std::stod(diagnostics_.value(kNode, "frame rate_hz")), 100, 5);
+  EXPECT_TRUE(wait_for([&] {  // unless the machine is too busy for a while
+    return diagnostics_.count(kNode, "images count") > 0 && diagnostics_.level(kNode) == 0 &&
+           std::abs(std::stod(diagnostics_.value(kNode, "frame rate_hz")) - 20) < 1;
+  })) << diagnostics_.message(kNode)
+      << diagnostics_.value(kNode, "frame rate_hz");
   EXPECT_EQ(diagnostics_.value(kNode, "pixels"), "copied into the message");
 }
 
@@ -135,7 +140,8 @@ TEST_F(CameraCapture, ACalibrationOfAnotherModeIsNotUsed) {
   set("rate_hz", 100);
   ASSERT_TRUE(load(write_pictures(4) + "?loop"));
   ASSERT_TRUE(more_images(1));
-  ASSERT_TRUE(told("calibrated for 640 x 48 px", 5)) << diagnostics_.message(kNode);
+  ASSERT_TRUE(told("calibrated for 640 x 48 px")) << diagnostics_.message(kNode);
+  ASSERT_TRUE(wait_for([&] { return !infos_.empty(); }));
   EXPECT_EQ(infos_.last().K[0], 0);
   EXPECT_EQ(infos_.last().width, 64u);
 }
@@ -143,13 +149,13 @@ TEST_F(CameraCapture, ACalibrationOfAnotherModeIsNotUsed) {
 TEST_F(CameraCapture, ARecordingEnds) {
   set("rate_hz", 100);
   ASSERT_TRUE(load(write_pictures(4)));
-  EXPECT_TRUE(told("the recording is over", 5)) << diagnostics_.message(kNode);
+  EXPECT_TRUE(told("the recording is over")) << diagnostics_.message(kNode);
   EXPECT_EQ(images_.size(), 4u);
 }
 
 TEST_F(CameraCapture, ASimulatedCameraKnowsItsLens) {
   ASSERT_TRUE(load(std::string("sim:") + LODESTAR_SOURCE_DIR + "/test/ros/scenario.yaml"));
-  ASSERT_TRUE(more_images(10));
+  ASSERT_TRUE(wait_for([&] { return images_.size() >= 10 && infos_.size() >= 10; }));
   EXPECT_EQ(infos_.last().K[0], 90);
 }
 
@@ -160,12 +166,16 @@ TEST_F(CameraCapture, WrongParametersStopTheStart) {
   EXPECT_FALSE(load(write_pictures(1))) << "a file cannot be exposed";
 }
 
-TEST_F(CameraCapture, ACameraThatIsNotThereYetIsAwaited) {
+// Told at once, not with a report, of which none is due during this test.
+TEST_F(CameraCapture, ACameraThatIsNotThereYetIsToldAtOnceAndAwaited) {
   set("rate_hz", 100);
+  set("diagnostic_period", 60);
   ASSERT_TRUE(load("file:" + folder_ + "/frame_%04d.png?loop"));
-  EXPECT_TRUE(told("camera lost", 3)) << diagnostics_.message(kNode);
+  EXPECT_TRUE(told("camera lost")) << diagnostics_.message(kNode);
+  EXPECT_EQ(diagnostics_.level(kNode), 2);
   write_pictures(4);
   EXPECT_TRUE(more_images(10));
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.level(kNode) < 2; })) << diagnostics_.message(kNode);
 }
 
 class GigeCapture : public CameraCapture {
@@ -177,6 +187,10 @@ class GigeCapture : public CameraCapture {
     set("rate_hz", 100);
     set("exposure_s", 0.002);
   }
+  /// A camera that answers too late, which a busy machine may make it, is one that may come, and the nodelet starts.
+  bool comes_to_be_refused() {
+    return wait_for([&] { return !load(FakeGigeCamera::kUri); });
+  }
   void TearDown() override {
     loader_.reset();  // before its camera, or it waits for answers
     camera_.reset();
@@ -186,13 +200,12 @@ class GigeCapture : public CameraCapture {
   std::unique_ptr<FakeGigeCamera> camera_;
 };
 
-TEST_F(GigeCapture, UnpluggedIsToldWithinASecondAndTheCameraIsTakenUpAgain) {
+// Within which time is for CaptureTest and AnswerWatch to show: by a given clock.
+TEST_F(GigeCapture, UnpluggedIsToldAndTheCameraIsTakenUpAgain) {
   ASSERT_TRUE(load(FakeGigeCamera::kUri));
   ASSERT_TRUE(more_images(20));
   camera_->unplug();
-  const ros::WallTime unplugged = ros::WallTime::now();
-  ASSERT_TRUE(told("camera lost", 5)) << diagnostics_.message(kNode);
-  EXPECT_LT((ros::WallTime::now() - unplugged).toSec(), 1.0);
+  ASSERT_TRUE(told("camera lost")) << diagnostics_.message(kNode);
   EXPECT_EQ(diagnostics_.level(kNode), 2);
   camera_->plug_in();
   ASSERT_TRUE(more_images(20));
@@ -219,21 +232,25 @@ TEST_F(GigeCapture, ImagesThatNobodyTriggeredAreNotMissed) {
     const std::string age_s = diagnostics_.value(kNode, "images age_s");
     return !age_s.empty() && std::stod(age_s) > 0.5;
   }));
-  EXPECT_EQ(diagnostics_.message(kNode).find("images"), std::string::npos) << diagnostics_.message(kNode);
-  for (const auto& array : told_from_the_first.all())
-    for (const auto& status : array->status) EXPECT_LT(status.level, 2) << status.name << ": " << status.message;
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.level(kNode) < 2; })) << diagnostics_.message(kNode);
+  for (const auto& array : told_from_the_first.all()) {
+    for (const auto& status : array->status) {
+      EXPECT_EQ(status.message.find("images"), std::string::npos) << status.message;
+      EXPECT_EQ(status.message.find("silent"), std::string::npos) << status.message;
+    }
+  }
 }
 
 TEST_F(GigeCapture, SettingsBeyondTheCamerasLimitsStopTheStart) {
   set("exposure_s", 20);
-  EXPECT_FALSE(load(FakeGigeCamera::kUri));
+  EXPECT_TRUE(comes_to_be_refused());
 }
 
 // Whether a gain may be negative is for the camera to say.
 TEST_F(GigeCapture, TheLimitsOfAGainAreTheCameras) {
   Inbox<rosgraph_msgs::Log> log(nh_, "/rosout");
   set("gain", -3);
-  EXPECT_FALSE(load(FakeGigeCamera::kUri));
+  EXPECT_TRUE(comes_to_be_refused());
   EXPECT_TRUE(wait_for([&] {
     return std::any_of(log.all().begin(), log.all().end(), [](const auto& line) {
       return line->msg.find("gain is -3, the camera takes 0 to 10") != std::string::npos;
@@ -244,7 +261,7 @@ TEST_F(GigeCapture, TheLimitsOfAGainAreTheCameras) {
 // The driver is told to write into the messages, and the detector holds on to these very messages: it keeps images
 // until it knows the frame rate.
 TEST_F(GigeCapture, NobodyCopiesAFrame) {
-  set("rate_hz", 4);
+  set("rate_hz", 2);  // ten seconds until then
   ros::param::set("/beacon_detection/site", std::string(LODESTAR_SOURCE_DIR) + "/test/ros/site.yaml");
   std::vector<boost::weak_ptr<const sensor_msgs::Image>> passing;
   const auto pass = [&](const sensor_msgs::ImageConstPtr& image) {

@@ -53,10 +53,22 @@ class IrDecoding : public testing::Test {
     site_ = *loaded;
     ros::param::set("/ir_decoding/memory", memory_);
     ros::param::set("/ir_decoding/site", site_path);
-    ASSERT_TRUE(load_nodelet(kNode, kType));
+    load();
     ASSERT_TRUE(wait_for([&] { return diagnostics_.heard(kNode); }));
+  }
+  void load() {
+    heard_before_ = announcements_.size();
+    spoilt_ = 0;
+    ASSERT_TRUE(load_nodelet(kNode, kType));
     ASSERT_TRUE(player_.connected({"/ir/frames"}));
-    ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
+    ASSERT_TRUE(wait_for(
+        [&] { return announcements_.connected() && conflicts_.connected() && samples_.getNumSubscribers() > 0; }));
+  }
+  void unload() {
+    ASSERT_TRUE(unload_nodelet(kNode));
+    ASSERT_TRUE(player_.disconnected("/ir/frames"));
+    ASSERT_TRUE(wait_for([&] { return !announcements_.connected() && !conflicts_.connected(); }));
+    diagnostics_.forget(kNode);
   }
 
   /// What beacon 11 would say.
@@ -81,10 +93,23 @@ class IrDecoding : public testing::Test {
   }
   /// Again, with what it keeps.
   void restart() {
-    ASSERT_TRUE(unload_nodelet(kNode));
-    ASSERT_TRUE(load_nodelet(kNode, kType));
-    ASSERT_TRUE(player_.connected({"/ir/frames"}));
-    ASSERT_TRUE(wait_for([&] { return announcements_.connected() && conflicts_.connected(); }));
+    unload();
+    load();
+  }
+  /// Damaged beyond the parity.
+  void send_spoilt() {
+    auto damaged = player_.sample<lodestar::IrFrame>("/ir/frames");
+    damaged.header.stamp = player_.now();
+    for (int i = 5; i < 20; ++i) damaged.octets[i] ^= 0x5a;
+    player_.publish("/ir/frames", damaged);
+    ++spoilt_;
+  }
+  /// All frames that were sent are decoded, for a last one is, and what came of them was heard.
+  bool all_is_heard() {
+    send_spoilt();
+    return dropped(name(IrDrop::kUncorrectable), spoilt_) && wait_for([&] {
+             return diagnostics_.count(kNode, "accepted") == static_cast<long>(announcements_.size() - heard_before_);
+           });
   }
   bool confirm(BeaconId id) {
     ConfirmBeacon confirm;
@@ -115,11 +140,13 @@ class IrDecoding : public testing::Test {
   ros::Publisher distrusted_ = nh_.advertise<DistrustedBeaconArray>("/beacons/distrusted", 10);
   ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 10);
   Diagnostics diagnostics_{nh_};
+  std::size_t heard_before_ = 0;  ///< announcements, before the node was started
+  long spoilt_ = 0;               ///< frames that were sent to it
 };
 
 TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   player_.play(3.0);
-  ASSERT_TRUE(wait_for([&] { return announcements_.size() >= 20; })) << announcements_.size();
+  ASSERT_TRUE(player_.play_until([&] { return announcements_.size() >= 20; })) << announcements_.size();
   std::set<std::uint32_t> heard;
   for (const auto& a : announcements_.all()) {
     heard.insert(a->beacon_id);
@@ -141,18 +168,16 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
     EXPECT_FALSE(entry.conflict);
     EXPECT_GT(entry.heard, 4u);
   }
-  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "accepted") >= 20; }));
-  EXPECT_EQ(diagnostics_.level(kNode), 0) << diagnostics_.message(kNode);
+  EXPECT_TRUE(player_.play_until([&] {
+    return diagnostics_.count(kNode, "accepted") >= 20 && diagnostics_.level(kNode) == 0;
+  })) << diagnostics_.message(kNode);
   EXPECT_EQ(diagnostics_.hardware_id(kNode), "test-hall");
 
   // Damaged beyond the parity, and a frame of noise that no parity mends.
   const auto good = player_.sample<lodestar::IrFrame>("/ir/frames");
-  auto damaged = good;
-  damaged.header.stamp = player_.now();
-  for (int i = 5; i < 20; ++i) damaged.octets[i] ^= 0x5a;
+  for (int i = 0; i < 3; ++i) send_spoilt();
+  ASSERT_TRUE(all_is_heard());
   const std::size_t before = announcements_.size();
-  for (int i = 0; i < 3; ++i) player_.publish("/ir/frames", damaged);
-  EXPECT_TRUE(dropped(name(IrDrop::kUncorrectable), 3));
 
   // Replayed: the first frame of the bag again, as if it were heard now, and as it was heard then.
   auto replayed = good;
@@ -175,11 +200,12 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   unmeasured.levels = {std::nanf("")};
   player_.publish("/ir/frames", unmeasured);
   EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 1));
+  ASSERT_TRUE(all_is_heard());
   EXPECT_EQ(announcements_.size(), before);
 
   // The line goes on.
-  player_.play(1.0);
-  EXPECT_TRUE(wait_for([&] { return announcements_.size() > before + 5; }));
+  EXPECT_TRUE(player_.play_until([&] { return announcements_.size() > before + 5; }));
+  ASSERT_TRUE(all_is_heard());
 
   // A beacon that is not where the site file says is told on a topic of its own and is not used.
   const auto last = announcements_.last();
@@ -209,8 +235,7 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
 
   // Its restart forgets nothing of that, and whoever listens anew is told.
-  ASSERT_TRUE(unload_nodelet(kNode));
-  ASSERT_TRUE(load_nodelet(kNode, kType));
+  restart();
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 4; }));
   const BeaconConfirmation told = *confirmed_.all()[2];
   EXPECT_EQ(told.announcement.beacon_id, moved.beacon.value);
@@ -242,9 +267,9 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_GT(confirmed_.last().header.stamp, distrusted.beacons[0].since);
   EXPECT_TRUE(kept(moved.beacon));
 
-  ASSERT_TRUE(wait_for([&] { return announcements_.connected(); }));
-  player_.play(0.9);  // one superframe to hear the time of the site
-  EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "accepted") >= 3; }));
+  // To hear the time of the site.
+  EXPECT_TRUE(player_.play_until([&] { return diagnostics_.count(kNode, "accepted") >= 3; }));
+  ASSERT_TRUE(all_is_heard());
 
   // A frame that begins in another beacon's slot: refused, and the operator is told.
   const auto newest = announcements_.last();
@@ -252,22 +277,20 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   send(relayed,
        newest.header.stamp + ros::Duration(site_.link.slot_s * (2 * site_.link.slot_count - newest.slot) + 0.1));
   EXPECT_TRUE(dropped(name(IrDrop::kSlot), 1));
-  EXPECT_TRUE(wait_for([&] {
-    return diagnostics_.message(kNode).find("no beacon of this site sends") != std::string::npos;
-  })) << diagnostics_.message(kNode);
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.said(kNode, "no beacon of this site sends"); }))
+      << diagnostics_.message(kNode);
 
   // Somebody drowns the channel, and the operator is told.
-  damaged.header.stamp = player_.now();
-  for (int i = 0; i < 30; ++i) player_.publish("/ir/frames", damaged);
-  EXPECT_TRUE(wait_for([&] { return diagnostics_.message(kNode).find("most frames are spoilt") != std::string::npos; }))
+  for (int i = 0; i < 30; ++i) send_spoilt();
+  EXPECT_TRUE(wait_for([&] { return diagnostics_.said(kNode, "most frames are spoilt"); }))
       << diagnostics_.message(kNode);
 
   // The clock jumps back: the bag begins again and its frames count again.
   const std::size_t before_jump = announcements_.size();
   player_.rewind();
-  player_.play(1.0);
-  EXPECT_TRUE(wait_for([&] { return announcements_.size() > before_jump + 5; }));
+  EXPECT_TRUE(player_.play_until([&] { return announcements_.size() > before_jump + 5; }));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "resets") >= 1; }));
+  ASSERT_TRUE(all_is_heard());
 
   // The other form: samples of the diodes, with the next frame of a beacon in them.
   const auto latest = announcements_.last();

@@ -1,9 +1,6 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -23,6 +20,7 @@
 #include "lodestar/ros/nodelets/edge_drop.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/node_process.hpp"
 #include "ros/support/waiting.hpp"
 
 namespace {
@@ -37,34 +35,6 @@ std::string sscc(int number) {
   return digits + gs1_check_digit(digits);
 }
 
-/// The node as a process of its own, that a test can end and start again.
-class Node {
- public:
-  Node() {
-    const std::string program = LODESTAR_PROGRAM_DIR "/pallet_tracking_node";
-    const auto given = [](const std::string& name) {
-      return "_" + name + ":=" + ros::param::param<std::string>("/" + name, "");
-    };
-    // Before the fork: the child has none of this process's threads, and a lock that one of them held stays locked.
-    const std::string site = given("site"), vehicle = given("vehicle"), memory = given("memory");
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    ::execl(program.c_str(), program.c_str(), "__name:=pallet_tracking", site.c_str(), vehicle.c_str(), memory.c_str(),
-            nullptr);
-    ::_exit(127);
-  }
-  ~Node() { end(SIGTERM); }
-  void end(int signal) {
-    if (pid_ <= 0) return;
-    ::kill(pid_, signal);
-    ::waitpid(pid_, nullptr, 0);
-    pid_ = -1;
-  }
-
- private:
-  pid_t pid_;
-};
-
 class PalletTracking : public testing::Test {
  protected:
   PalletTracking() {
@@ -78,11 +48,19 @@ class PalletTracking : public testing::Test {
     for (const int i : {0, 7, 14}) pose_message_.pose.covariance[static_cast<std::size_t>(i)] = 1e-4;
     for (const int i : {21, 28, 35}) pose_message_.pose.covariance[static_cast<std::size_t>(i)] = 1e-6;
     load_message_.header.frame_id = "fork";
+    ros::param::del("/pallet_tracking");
+    for (const std::string key : {"site", "vehicle", "memory"})
+      ros::param::set("/pallet_tracking/" + key, ros::param::param<std::string>("/" + key, ""));
+    ros::param::set("/pallet_tracking/diagnostic_period", 0.1);
     start();
   }
 
   void start() {
-    node_ = std::make_unique<Node>();
+    EXPECT_TRUE(wait_for([&] { return pose_.getNumSubscribers() == 0 && load_.getNumSubscribers() == 0; }))
+        << "of an earlier life";
+    diagnostics_.forget(kNode);
+    poses_ = loads_ = 0;
+    node_ = std::make_unique<NodeProcess>(kNode);
     EXPECT_TRUE(wait_for([&] {
       tick(0);
       return pose_.getNumSubscribers() > 0 && load_.getNumSubscribers() > 0 && events_.connected() &&
@@ -100,17 +78,37 @@ class PalletTracking : public testing::Test {
     pose_message_.pose.pose.position.x = x - 1.6;
     pose_message_.pose.pose.position.y = y;
   }
-  /// Three quarters of a second of poses and load samples.
+  void publish(const geometry_msgs::PoseWithCovarianceStamped& pose) {
+    pose_.publish(pose);
+    ++poses_;
+  }
+  void publish(const LoadState& load) {
+    load_.publish(load);
+    ++loads_;
+  }
+  /// The node had time for all that it was told.
+  bool all_is_taken() {
+    return wait_for([&] {
+      return diagnostics_.count(kNode, "pose count") == poses_ && diagnostics_.count(kNode, "load count") == loads_;
+    });
+  }
+  /// Three quarters of a second of poses, which may be told late, and then of the load samples in between.
   void work(bool present, const std::string& label = "", double z_m = 0) {
-    for (int i = 0; i < 15; ++i) {
+    constexpr int kSamples = 15;
+    const ros::Time began = now_;
+    EXPECT_TRUE(all_is_taken());
+    for (int i = 0; i < kSamples; ++i) {
       tick(0.05);
-      pose_message_.header.stamp = load_message_.header.stamp = now_;
-      pose_.publish(pose_message_);
-      load_message_.load_present = present;
-      load_message_.fork_height_m = 0.1 + z_m;
-      load_message_.load_id = label;
-      ros::WallDuration(0.002).sleep();  // the two topics are two connections: let the pose be first
-      load_.publish(load_message_);
+      pose_message_.header.stamp = now_;
+      publish(pose_message_);
+    }
+    EXPECT_TRUE(all_is_taken());  // the two topics are two connections
+    load_message_.load_present = present;
+    load_message_.fork_height_m = 0.1 + z_m;
+    load_message_.load_id = label;
+    for (int i = 1; i <= kSamples; ++i) {
+      load_message_.header.stamp = began + ros::Duration(0.05 * i);
+      publish(load_message_);
     }
   }
   /// What happened, once so many events came in all.
@@ -138,12 +136,13 @@ class PalletTracking : public testing::Test {
   std::string memory_ = ros::param::param<std::string>("/memory", "");
   ros::Time now_{1000};
   ros::Publisher clock_, pose_, integrity_, load_;
+  long poses_ = 0, loads_ = 0;  ///< that were told to the node
   geometry_msgs::PoseWithCovarianceStamped pose_message_;
   LoadState load_message_;
   Inbox<PalletEvent> events_{nh_, "/pallets/events"};
   Inbox<PalletArray> state_{nh_, "/pallets/state"};
   Diagnostics diagnostics_{nh_};
-  std::unique_ptr<Node> node_;
+  std::unique_ptr<NodeProcess> node_;
 };
 
 TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
@@ -219,12 +218,14 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   event(5);
   const auto told = [&](std::uint8_t mode, bool coasting) {
     return wait_for([&] {
+      // No more at once than the node keeps of what it had no time for.
+      if (!all_is_taken()) return false;
       tick(0.05);
       PoseIntegrity integrity;
       integrity.header.stamp = pose_message_.header.stamp = now_;
       integrity.mode = mode;
       integrity_.publish(integrity);
-      pose_.publish(pose_message_);
+      publish(pose_message_);
       return state_.last().pallets.at(0).coasting == coasting;
     });
   };
@@ -293,40 +294,40 @@ TEST_F(PalletTracking, CountsBadInputAndGoesOn) {
   work(false);
   auto bad_pose = pose_message_;
   bad_pose.pose.pose.position.x = std::nan("");
-  pose_.publish(bad_pose);
+  publish(bad_pose);
   bad_pose = pose_message_;
   bad_pose.pose.covariance[0] = std::nan("");
-  pose_.publish(bad_pose);
+  publish(bad_pose);
   EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 2));
   bad_pose = pose_message_;
   bad_pose.header.frame_id = "odom";
-  pose_.publish(bad_pose);
+  publish(bad_pose);
   EXPECT_TRUE(dropped(name(MessageDrop::kFrame), 1));
   auto bad_load = load_message_;
   bad_load.fork_height_m = INFINITY;
-  load_.publish(bad_load);
+  publish(bad_load);
   EXPECT_TRUE(dropped(name(MessageDrop::kNotFinite), 3));
   bad_load.fork_height_m = 1e200;
-  load_.publish(bad_load);
+  publish(bad_load);
   bad_pose = pose_message_;
   bad_pose.pose.pose.position.x = 1e305;
-  pose_.publish(bad_pose);
+  publish(bad_pose);
   EXPECT_TRUE(dropped(name(MessageDrop::kRange), 2));
   bad_load = load_message_;
   bad_load.header.stamp = ros::Time();
-  load_.publish(bad_load);
+  publish(bad_load);
   EXPECT_TRUE(dropped(name(MessageDrop::kStamp), 1));
 
   // Late, twice, out of order.
   auto late = load_message_;
   late.load_present = true;
   late.header.stamp -= ros::Duration(0.3);
-  load_.publish(late);
-  load_.publish(late);
+  publish(late);
+  publish(late);
   EXPECT_TRUE(dropped(name(PalletDrop::kLateLoad), 2));
   auto late_pose = pose_message_;
   late_pose.header.stamp -= ros::Duration(0.3);
-  pose_.publish(late_pose);
+  publish(late_pose);
   EXPECT_TRUE(dropped(name(PalletDrop::kLatePose), 1));
 
   // Labels that are none.
@@ -339,7 +340,7 @@ TEST_F(PalletTracking, CountsBadInputAndGoesOn) {
   load_message_.load_id = std::string(10000, '7');
   tick(0.05);
   load_message_.header.stamp = now_;
-  load_.publish(load_message_);
+  publish(load_message_);
   work(true, "'; DROP TABLE pallets; --");
   stand(1, 0.5);
   work(false);
@@ -352,8 +353,7 @@ TEST_F(PalletTracking, CountsBadInputAndGoesOn) {
     load_message_.header.stamp = now_;
     load_message_.load_present = i < 15;
     load_message_.load_id.clear();
-    load_.publish(load_message_);
-    ros::WallDuration(0.002).sleep();
+    publish(load_message_);
   }
   EXPECT_EQ(event(4).pallet.state, PalletEntry::UNCERTAIN);
   EXPECT_TRUE(dropped(name(PalletDrop::kNoPose), 2));

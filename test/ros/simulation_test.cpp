@@ -8,9 +8,12 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <memory>
+
 #include "lodestar/IrFrame.h"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
+#include "ros/support/node_process.hpp"
 #include "ros/support/waiting.hpp"
 
 namespace {
@@ -30,10 +33,21 @@ TEST(SimulationNodelet, SpeaksAsAVehicleDoesAndStopsWithItsScenario) {
   tf2_ros::Buffer tf;
   tf2_ros::TransformListener listener(tf, nh, false);
 
-  ASSERT_TRUE(wait_for([&] {
+  // A node of its own, as a user may run it, not a nodelet. Where the eight seconds of its scenario are over before a
+  // busy machine has connected the two, it begins again.
+  const char* const node = "simulation";
+  const auto over = [&] { return diagnostics.message(node).find("over") != std::string::npos; };
+  const auto spoken = [&] {
     return images.size() > 20 && infos.size() > 20 && imu.size() > 50 && odometry.size() > 20 && ir.size() > 3 &&
            truth.size() > 50;
-  }));
+  };
+  std::unique_ptr<NodeProcess> simulation;
+  for (int i = 0; i < 5 && !spoken(); ++i) {
+    simulation = std::make_unique<NodeProcess>(node);
+    diagnostics.forget(node);
+    wait_for([&] { return spoken() || over(); });
+  }
+  ASSERT_TRUE(spoken());
   EXPECT_EQ(images.last().encoding, "mono8");
   EXPECT_EQ(images.last().header.frame_id, "camera_optical_frame");
   EXPECT_EQ(infos.last().distortion_model, "equidistant");
@@ -44,9 +58,9 @@ TEST(SimulationNodelet, SpeaksAsAVehicleDoesAndStopsWithItsScenario) {
   EXPECT_FALSE(clock.empty());
   for (const char* frame : {"camera_optical_frame", "imu_link", "ir_array", "fork", "odom"})
     EXPECT_TRUE(wait_for([&] { return tf.canTransform("base_link", frame, ros::Time(0)); })) << frame;
-  EXPECT_TRUE(wait_for([&] { return diagnostics.value("simulation", "scenario") == "rostest"; }));
+  EXPECT_TRUE(wait_for([&] { return diagnostics.value(node, "scenario") == "rostest"; }));
   // Eight seconds, then it says that it is over.
-  EXPECT_TRUE(wait_for([&] { return diagnostics.message("simulation").find("over") != std::string::npos; }));
+  EXPECT_TRUE(wait_for(over));
 }
 
 }  // namespace

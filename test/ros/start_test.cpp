@@ -22,11 +22,11 @@ struct Ended {
   std::string output;
 };
 
-/// Runs a node of the package under the name "started" until it ends by itself; at most 20 s.
+/// Runs a node of the package under the name "started" until it ends by itself; at most two minutes.
 Ended run(const std::string& node) {
   const std::string log = "/tmp/lodestar_start_test_" + std::to_string(getpid()) + ".log";
   const std::string command =
-      "timeout -s KILL 20 " + std::string(LODESTAR_PROGRAM_DIR) + "/" + node + " __name:=started > " + log + " 2>&1";
+      "timeout -s KILL 120 " + std::string(LODESTAR_PROGRAM_DIR) + "/" + node + " __name:=started > " + log + " 2>&1";
   const int status = std::system(command.c_str());
   std::ifstream file(log);
   std::stringstream output;

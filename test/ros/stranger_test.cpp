@@ -48,6 +48,7 @@ class StrangerOnTheChannel : public testing::Test {
   }
 
   void play(Trick trick, double duration_s) {
+    for (const char* node : {"ir_decoding", "beacon_detection"}) diagnostics_.forget(node);
     stranger_ = Stranger(trick, site_);
     player_.play(duration_s);
   }
@@ -64,7 +65,7 @@ class StrangerOnTheChannel : public testing::Test {
   }
 
   bool told(const std::string& node, const std::string& text) {
-    return wait_for([&] { return diagnostics_.message(node).find(text) != std::string::npos; }, 12);
+    return wait_for([&] { return diagnostics_.said(node, text); });
   }
   bool refused(IrDrop reason) {
     const std::string node = "ir_decoding";
@@ -112,7 +113,8 @@ TEST_F(StrangerOnTheChannel, WhateverHeDoesIsToldAndMovesNoPose) {
   // Longer than all that was sound since the channel was judged last, or it may be judged together with that.
   play(Trick::kJam, 2.5);
   EXPECT_TRUE(told("ir_decoding", "most frames are spoilt")) << diagnostics_.message("ir_decoding");
-  EXPECT_GT(poses_.last().header.stamp, player_.now() - ros::Duration(0.2)) << "he took the pose away";
+  EXPECT_TRUE(wait_for([&] { return poses_.last().header.stamp > player_.now() - ros::Duration(0.2); }))
+      << "he took the pose away";
   expect_the_truth();
 
   // From the start of the truck, brighter than the beacons: it may not start, but nobody is left in the dark.

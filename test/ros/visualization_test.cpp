@@ -46,26 +46,27 @@ TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
   ASSERT_TRUE(wait_for([&] { return sightings.connected() && images.connected() && truck.connected(); }));
   player.answered_by([&] { return sightings.size(); });
   player.send_mounts();
-  player.play(4.0);
-  ASSERT_TRUE(wait_for([&] { return truck.size() > 5 && images.size() > 5 && !path.empty(); }));
-  EXPECT_GT(added(truck.last(), "truck"), 10);
-  ASSERT_EQ(added(truck.last(), "covariance"), 1);
-  ASSERT_EQ(added(truck.last(), "bearings"), 1);
+  ASSERT_TRUE(player.play_until([&] {
+    return truck.size() > 5 && images.size() > 5 && !path.empty() && path.last().poses.size() > 3 &&
+           added(truck.last(), "truck") > 10 && added(truck.last(), "covariance") == 1 &&
+           added(truck.last(), "bearings") == 1 && added(truck.last(), "protection level") == 1;
+  }));
   std::size_t most_ends = 0;
-  for (const auto& drawn : truck.all()) {
-    for (const auto& marker : drawn->markers)
+  EXPECT_TRUE(player.play_until([&] {
+    for (const auto& marker : truck.last().markers)
       if (marker.ns == "bearings") most_ends = std::max(most_ends, marker.points.size());
-  }
-  EXPECT_EQ(most_ends, 8u) << "four beacons, two ends each";
-  EXPECT_EQ(added(truck.last(), "protection level"), 1);
-  EXPECT_GT(path.last().poses.size(), 3u);
+    return most_ends == 8;
+  })) << "four beacons, two ends each, and not "
+      << most_ends;
   EXPECT_EQ(images.last().encoding, "bgr8");
   EXPECT_EQ(images.last().width, 320u);
   // A ring is coloured, the camera is not.
-  const auto& pixels = images.last().data;
-  int coloured = 0;
-  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) coloured += pixels[i] != pixels[i + 1] ? 1 : 0;
-  EXPECT_GT(coloured, 100);
+  EXPECT_TRUE(player.play_until([&] {
+    const auto& pixels = images.last().data;
+    int coloured = 0;
+    for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) coloured += pixels[i] != pixels[i + 1] ? 1 : 0;
+    return coloured > 100;
+  }));
 
   // A pose that is none, and an image cut short.
   geometry_msgs::PoseWithCovarianceStamped bad;
@@ -73,6 +74,7 @@ TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
   bad.header.frame_id = "map";
   bad.pose.pose.position.x = std::nan("");
   bad.pose.pose.orientation.w = 1;
+  ASSERT_TRUE(wait_for([&] { return pose.getNumSubscribers() > 0; }));
   pose.publish(bad);
   EXPECT_TRUE(wait_for(
       [&] { return diagnostics.count(kNode, std::string("dropped: ") + name(MessageDrop::kNotFinite)) >= 1; }));
@@ -82,8 +84,7 @@ TEST(Visualization, DrawsSiteTruckBearingsPathAndImage) {
   EXPECT_TRUE(wait_for(
       [&] { return diagnostics.count(kNode, std::string("dropped: ") + name(MessageDrop::kTruncated)) >= 1; }));
   const std::size_t before = truck.size();
-  player.play(1.0);
-  EXPECT_TRUE(wait_for([&] { return truck.size() > before; }));
+  EXPECT_TRUE(player.play_until([&] { return truck.size() > before; }));
 }
 
 const visualization_msgs::Marker* named(const visualization_msgs::MarkerArray& array, const std::string& ns,

@@ -72,8 +72,7 @@ Outcome connect(const MqttParams& params) {
                 outcome.up |= std::holds_alternative<LinkUp>(event);
                 outcome.down |= std::holds_alternative<LinkDown>(event);
               }
-            },
-            20);
+            });
   return outcome;
 }
 
@@ -176,8 +175,7 @@ TEST_F(Tls, AStrangerInTheListIsPassedOver) {
                         [&] {
                           bridge.poll(test::clocks());
                           site.poll(test::clocks().monotonic);
-                        },
-                        20))
+                        }))
       << bridge.last_failure();
   EXPECT_EQ(bridge.broker(), 1u);
   EXPECT_EQ(kept, 20u);

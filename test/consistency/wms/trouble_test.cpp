@@ -63,7 +63,7 @@ class Trouble : public testing::Test {
     bridge_->poll(now());
     site_->poll();
   }
-  bool acknowledged(std::uint64_t count, double limit_s = 30) {
+  bool acknowledged(std::uint64_t count, double limit_s = 60) {
     return run_until([&] { return bridge_->outbox().acknowledged() >= count; }, [&] { poll(); }, limit_s);
   }
   json event(std::size_t document, std::size_t index = 0) const {
@@ -97,7 +97,7 @@ TEST_F(Trouble, TenThousandEventsOfADayWithoutNetworkDrain) {
   EXPECT_NE(bridge_->last_failure(), "");
 
   brokers_[0]->start();
-  EXPECT_TRUE(acknowledged(kEvents, 60)) << bridge_->outbox().waiting() << " " << bridge_->last_failure();
+  EXPECT_TRUE(acknowledged(kEvents, 300)) << bridge_->outbox().waiting() << " " << bridge_->last_failure();
   site_->expect_all_once(kEvents);
   EXPECT_GE(stamps.back() - stamps.front(), day);
   for (const std::size_t i : {0, kEvents / 2, kEvents - 1}) EXPECT_EQ(event(i)["eventTime"], iso_time(stamps[i]));
@@ -171,8 +171,7 @@ TEST_F(Trouble, AcknowledgementsThatRepeatOrComeOutOfOrderMoveNothing) {
     for (const LinkEvent& event : other.take()) up |= std::holds_alternative<LinkUp>(event);
     return up;
   };
-  ASSERT_TRUE(run_until(
-      connected, [] {}, 10));
+  ASSERT_TRUE(run_until(connected, [] {}));
   const std::string topic = site_topics("lodestar", "truck7").ack;
   take(1, 500);
   std::uint64_t step = 0;
@@ -185,11 +184,11 @@ TEST_F(Trouble, AcknowledgementsThatRepeatOrComeOutOfOrderMoveNothing) {
     if (step++ % 7 == 0) other.publish({topic, "{\"sequence\":", 1, false});
   };
   const auto done = [&] { return bridge_->outbox().acknowledged() == 500 && step > 100; };
-  EXPECT_TRUE(run_until(done, disturb, 30));
+  EXPECT_TRUE(run_until(done, disturb));
   site_->expect_all_once(500);
   for (std::size_t i = 0; i < static_cast<std::size_t>(AckDrop::kCount); ++i) {
     const auto drop = static_cast<AckDrop>(i);
-    EXPECT_TRUE(run_until([&] { return bridge_->outbox().drops()[drop] > 0; }, disturb, 30)) << name(drop);
+    EXPECT_TRUE(run_until([&] { return bridge_->outbox().drops()[drop] > 0; }, disturb)) << name(drop);
   }
   EXPECT_EQ(bridge_->store().acknowledged(), 500u);
 }
@@ -201,15 +200,15 @@ TEST_F(Trouble, OneOfTwoBrokersDiesWithEventsUnderWay) {
   EXPECT_EQ(bridge_->broker(), 0u);
   // A window of them is with the broker, which dies after the site kept the first and before it can say so.
   take(301, 600);
-  run_until([&] { return bridge_->outbox().on_their_way() == 50; }, [&] { bridge_->poll(now()); }, 10);
+  run_until([&] { return bridge_->outbox().on_their_way() == 50; }, [&] { bridge_->poll(now()); });
   site_->kept = [&] { brokers_[0]->kill(); };
-  run_until([&] { return site_->documents.size() > 300; }, [&] { site_->poll(); }, 10);
+  run_until([&] { return site_->documents.size() > 300; }, [&] { site_->poll(); });
   site_->kept = nullptr;
   EXPECT_GT(site_->documents.size(), 300u);
   EXPECT_EQ(bridge_->outbox().acknowledged(), 300u);
   // The site listens at the other broker first: what nobody hears there is no repetition.
-  run_until([&] { return !site_->client.connected(); }, [&] { site_->poll(); }, 10);
-  ASSERT_TRUE(run_until([&] { return site_->client.connected(); }, [&] { site_->poll(); }, 10));
+  run_until([&] { return !site_->client.connected(); }, [&] { site_->poll(); });
+  ASSERT_TRUE(run_until([&] { return site_->client.connected(); }, [&] { site_->poll(); }));
   ASSERT_TRUE(acknowledged(600)) << bridge_->last_failure();
   EXPECT_EQ(bridge_->broker(), 1u);
   run_until([] { return false; }, [&] { poll(); }, 0.2);  // stragglers would show up now
@@ -232,7 +231,7 @@ TEST_F(Trouble, ASiteThatWasRestoredFromABackupGoesOn) {
   ASSERT_TRUE(acknowledged(12));
   const std::string topic = site_topics("lodestar", "truck7").ack;
   site_->link.publish({topic, message_text(Acknowledgement{bridge_->store().stream(), 3}), 1, true});
-  ASSERT_TRUE(run_until([&] { return bridge_->outbox().drops()[AckDrop::kLate] > 0; }, [&] { poll(); }, 10));
+  ASSERT_TRUE(run_until([&] { return bridge_->outbox().drops()[AckDrop::kLate] > 0; }, [&] { poll(); }));
   site_ = std::make_unique<Site>(std::vector<std::string>{brokers_[0]->uri()});
   take(13, 14);
   ASSERT_TRUE(acknowledged(14));

@@ -68,6 +68,11 @@ class BagPlayer {
     });
   }
 
+  /// Of a node that was ended.
+  bool disconnected(const std::string& topic) {
+    return wait_for([&] { return publishers_.at(topic).getNumSubscribers() == 0; });
+  }
+
   /// The next seconds of the bag.
   void play(double duration_s) {
     if (next_ >= messages_.size()) return;
@@ -79,6 +84,14 @@ class BagPlayer {
       const auto filter = filters_.find(message.getTopic());
       if (filter == filters_.end() || filter->second(message)) send(message);
     }
+  }
+  /// Plays on until it is so; a busy machine may lose messages, and be late with what it makes of the others.
+  bool play_until(const std::function<bool()>& condition) {
+    return wait_for([&] {
+      if (condition()) return true;
+      play(0.1);
+      return false;
+    });
   }
   /// Nodes that start anew then do not answer at once.
   void rewind() {
@@ -134,7 +147,7 @@ class BagPlayer {
     if (message.getTopic() != "/camera/image_raw") return;
     if (!answers_) return;
     // Whoever answered the image before will answer this one; whoever did not may never.
-    answering_ = wait_for([&] { return answers_() > before; }, answering_ ? 3.0 : 0.1);
+    answering_ = wait_for([&] { return answers_() > before; }, answering_ ? 30.0 : 0.1);
   }
 
   rosbag::Bag bag_;

@@ -14,7 +14,7 @@ inline bool load_nodelet(const std::string& name, const std::string& type, const
   load.request.name = "/" + name;
   load.request.type = type;
   const std::string service = "/" + manager + "/load_nodelet";
-  return ros::service::waitForService(service, ros::Duration(30)) && ros::service::call(service, load) &&
+  return ros::service::waitForService(service, ros::Duration(60)) && ros::service::call(service, load) &&
          load.response.success;
 }
 

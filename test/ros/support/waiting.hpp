@@ -7,7 +7,7 @@
 namespace lodestar::test {
 
 /// Runs callbacks until the condition holds. The limit is generous: a slow machine is no failure.
-inline bool wait_for(const std::function<bool()>& condition, double limit_s = 40) {
+inline bool wait_for(const std::function<bool()>& condition, double limit_s = 60) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(limit_s);
   while (ros::ok()) {
     ros::spinOnce();

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,10 +36,11 @@ class FakeGigeCamera {
   void plug_in() {
     process_ = fork();
     if (process_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that dies leaves the port to the next
       execl(kProgram, kProgram, "-i", "127.0.0.1", "-r", lost_.c_str(), nullptr);
       _exit(127);
     }
-    for (int waited_ms = 0; !listens() && waited_ms < 3000; waited_ms += 5)
+    for (int waited_ms = 0; !listens() && waited_ms < 30000; waited_ms += 5)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   void unplug() {

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <future>
 #include <vector>
+
+#include "lodestar/sensing/camera/answer_watch.hpp"
 
 namespace lodestar {
 namespace {
 
 constexpr int kBuffers = 8;
-constexpr std::chrono::milliseconds kAnswer(600);  // GVCP asks again after 500 ms: one lost packet is no fault
 
 struct Unref {
   void operator()(void* object) const { g_object_unref(object); }
@@ -84,14 +84,15 @@ class AravisSource : public FrameSource {
   void start_stream();
   void push_new_buffer();
   Result<DeviceFrame, NoFrame> frame_of(ArvBuffer& buffer) const;
-  bool answers();
 
   std::string name_;
   std::atomic<bool> lost_{false};  // goes after the camera, whose thread writes it
   Reference<ArvCamera> camera_;
-  Reference<ArvStream> stream_;  // goes before the camera
-  std::future<bool> answer_;     // likewise
-  std::chrono::steady_clock::time_point asked_;
+  Reference<ArvStream> stream_;                                           // goes before the camera
+  AnswerWatch answers_{[device = arv_camera_get_device(camera_.get())] {  // likewise
+    guint32 version = 0;
+    return arv_device_read_register(device, 0, &version, nullptr) != FALSE;
+  }};
   FrameAllocator allocate_;
   Format format_ = kFormats[0];
   std::size_t payload_bytes_ = 0;
@@ -240,25 +241,13 @@ Result<DeviceFrame, NoFrame> AravisSource::next(Duration timeout) {
   const Reference<ArvBuffer> buffer(
       arv_stream_timeout_pop_buffer(stream_.get(), static_cast<guint64>(std::max<std::int64_t>(timeout_us, 0))));
   if (!buffer) {
-    if (lost_ || !answers()) throw CameraError(name_ + " does not answer any more");
+    // Aravis itself gives up after 2.5 s of asking only.
+    if (lost_ || !answers_.alive(std::chrono::steady_clock::now()))
+      throw CameraError(name_ + " does not answer any more");
     return NoFrame::kTimeout;
   }
   push_new_buffer();
   return frame_of(*buffer);
-}
-
-// Asked beside the stream: Aravis itself gives up after 2.5 s of asking only.
-bool AravisSource::answers() {
-  const bool told = answer_.valid() && answer_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  if (told && !answer_.get()) return false;
-  if (!answer_.valid()) {
-    asked_ = std::chrono::steady_clock::now();
-    answer_ = std::async(std::launch::async, [device = arv_camera_get_device(camera_.get())] {
-      guint32 version = 0;
-      return arv_device_read_register(device, 0, &version, nullptr) != FALSE;
-    });
-  }
-  return std::chrono::steady_clock::now() - asked_ < kAnswer;
 }
 
 Result<DeviceFrame, NoFrame> AravisSource::frame_of(ArvBuffer& buffer) const {

@@ -51,6 +51,19 @@ TEST(FrameStamper, WhereBothClocksAreReadTheStampedInstantCounts) {
               1e-6);
 }
 
+// The camera's stamps are as even as its exposures, however unevenly the host hears of them.
+TEST(FrameStamper, LateArrivalsDoNotMoveTheStamps) {
+  FrameStamper stamper(source(SourceClock::Stamped::kExposureStart, true), 0);
+  for (int i = 0; i < 300; ++i) {
+    const Duration start = i * std::chrono::nanoseconds(16'666'667);
+    DeviceFrame frame;
+    frame.ticks = static_cast<std::uint64_t>(start.count());
+    const Duration late = i < 100 ? milliseconds(0) : milliseconds(i * 7 % 15);
+    frame.heard = {frame.ticks, kStart + start + milliseconds(4) + late};
+    EXPECT_NEAR(seconds(stamper.stamp(frame) - (kStart + start + milliseconds(2))), 0, 1e-6) << i;
+  }
+}
+
 TEST(FrameStamper, SaysWhetherTheMiddleIsKnown) {
   SourceInfo blind;
   EXPECT_NE(FrameStamper(blind, 0).description().find("exposure unknown"), std::string::npos);

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
-#include <vector>
 
 #include "lodestar/sensing/camera/capture.hpp"
 #include "lodestar/sensing/camera/open_source.hpp"
 #include "support/camera/fake_gige_camera.hpp"
 #include "support/camera/heap_frames.hpp"
+#include "support/real_time.hpp"
 
 #if LODESTAR_HAS_ARAVIS
 #include <arv.h>
@@ -20,9 +20,19 @@ namespace {
 
 using test::FakeGigeCamera;
 
-double spread(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most - *least;
+/// A busy machine may let any exchange with the camera, and any frame, be late or lost. So no test here says how soon
+/// something comes, only that it does; CaptureTest and AnswerWatch say how soon, by a given clock.
+constexpr double kLongest_s = 30;
+
+/// What `attempt` returns once the camera answered in time.
+template <class Attempt>
+auto patiently(Attempt attempt) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kLongest_s);
+  for (;;) try {
+      return attempt();
+    } catch (const CameraError&) {
+      if (std::chrono::steady_clock::now() > end) throw;
+    }
 }
 
 class AravisSourceTest : public testing::Test {
@@ -35,18 +45,19 @@ class AravisSourceTest : public testing::Test {
   Capture capture() {
     return Capture([] { return open_source(FakeGigeCamera::kUri); }, settings_, memory_.allocator(), 0);
   }
-  /// However slow the machine is.
-  bool gets(Capture& capture, int frames) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (frames > 0 && std::chrono::steady_clock::now() < end) frames -= capture.next().has_value();
-    return frames == 0;
+  SourceInfo start() {
+    return patiently([&] { return open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator()); });
   }
-
-  /// The next whole frame. A sender that a busy machine stops in the middle of one leaves it incomplete.
-  static DeviceFrame whole_frame(FrameSource& source) {
-    for (int i = 0; i < 50; ++i)
-      if (const auto frame = source.next(std::chrono::seconds(1))) return *frame;
-    throw std::runtime_error("no whole frame");
+  template <class Done>
+  static bool comes_true(Capture& capture, Done done) {
+    return test::run_until(
+        done, [&] { capture.next(); }, kLongest_s);
+  }
+  static CapturedFrame next_frame(Capture& capture) {
+    std::optional<CapturedFrame> frame;
+    if (!test::run_until([&] { return frame.has_value(); }, [&] { frame = capture.next(); }, kLongest_s))
+      throw std::runtime_error("no frame: " + capture.report().fault);
+    return *frame;
   }
 
   CameraSettings settings_;
@@ -55,13 +66,13 @@ class AravisSourceTest : public testing::Test {
 
 TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
   const FakeGigeCamera camera;
-  const auto source = open_source(FakeGigeCamera::kUri);
-  const SourceInfo info = source->start(settings_, memory_.allocator());
+  const SourceInfo info = start();
   EXPECT_NEAR(info.exposure_s, 0.002, 1e-9);
   EXPECT_NEAR(info.period_s, 0.01, 1e-6);
   EXPECT_EQ(info.clock.frame_id_bits, 16);
+  Capture capture = this->capture();
   for (int i = 0; i < 10; ++i) {
-    const DeviceFrame frame = whole_frame(*source);
+    const DeviceFrame frame = next_frame(capture).frame;
     EXPECT_TRUE(memory_.gave(frame.memory.data));
     EXPECT_EQ(frame.stride_bytes, static_cast<std::size_t>(frame.width_px));
     std::uint8_t* const end = frame.memory.data + frame.stride_bytes * static_cast<std::size_t>(frame.height_px);
@@ -74,9 +85,8 @@ TEST_F(AravisSourceTest, SixteenBitsAndAnotherSize) {
   settings_.pixel_format = "mono16";
   settings_.width_px = 320;
   settings_.height_px = 200;
-  const auto source = open_source(FakeGigeCamera::kUri);
-  source->start(settings_, memory_.allocator());
-  const DeviceFrame frame = whole_frame(*source);
+  Capture capture = this->capture();
+  const DeviceFrame frame = next_frame(capture).frame;
   EXPECT_EQ(frame.bits, 16);
   EXPECT_EQ(frame.width_px, 320);
   EXPECT_EQ(frame.height_px, 200);
@@ -89,7 +99,7 @@ TEST_F(AravisSourceTest, LimitsAreTheCameras) {
   settings_.gain = 50;
   settings_.pixel_format = "mjpeg";
   try {
-    open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
+    start();
     FAIL() << "was not refused";
   } catch (const CameraRefusal& refusal) {
     EXPECT_EQ(std::string(refusal.what()),
@@ -100,68 +110,95 @@ TEST_F(AravisSourceTest, LimitsAreTheCameras) {
 }
 
 #if LODESTAR_HAS_ARAVIS
-/// The fake camera as Aravis itself opens it.
-std::unique_ptr<ArvCamera, void (*)(gpointer)> by_aravis() {
-  return {arv_camera_new("127.0.0.1", nullptr), g_object_unref};
+/// Whether the fake camera, as Aravis itself opens it, comes to be so.
+template <class Is>
+bool camera_comes_to_be(Is is) {
+  return test::run_until(
+      [&] {
+        GError* error = nullptr;
+        const std::unique_ptr<ArvCamera, void (*)(gpointer)> camera(arv_camera_new("127.0.0.1", &error),
+                                                                    g_object_unref);
+        const bool so = camera && is(camera.get(), &error) && !error;
+        g_clear_error(&error);
+        return so;
+      },
+      [] {}, kLongest_s);
 }
 
 TEST_F(AravisSourceTest, AutomaticsAreStopped) {
   const FakeGigeCamera camera;
-  arv_camera_set_gain_auto(by_aravis().get(), ARV_AUTO_CONTINUOUS, nullptr);
-  ASSERT_EQ(arv_camera_get_gain_auto(by_aravis().get(), nullptr), ARV_AUTO_CONTINUOUS);
-  open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
-  EXPECT_EQ(arv_camera_get_gain_auto(by_aravis().get(), nullptr), ARV_AUTO_OFF);
+  ASSERT_TRUE(camera_comes_to_be([](ArvCamera* aravis, GError** error) {
+    arv_camera_set_gain_auto(aravis, ARV_AUTO_CONTINUOUS, error);
+    return !*error && arv_camera_get_gain_auto(aravis, error) == ARV_AUTO_CONTINUOUS;
+  }));
+  start();
+  EXPECT_TRUE(camera_comes_to_be(
+      [](ArvCamera* aravis, GError** error) { return arv_camera_get_gain_auto(aravis, error) == ARV_AUTO_OFF; }));
 }
 
 TEST_F(AravisSourceTest, SettingsReachTheCamera) {
   const FakeGigeCamera camera;
   settings_.gain = 3;
-  open_source(FakeGigeCamera::kUri)->start(settings_, memory_.allocator());
-  EXPECT_NEAR(arv_camera_get_gain(by_aravis().get(), nullptr), 3, 1e-9);
-  EXPECT_NEAR(arv_camera_get_exposure_time(by_aravis().get(), nullptr), 2000, 1e-6);
+  start();
+  EXPECT_TRUE(camera_comes_to_be(
+      [](ArvCamera* aravis, GError** error) { return std::abs(arv_camera_get_gain(aravis, error) - 3) < 1e-9; }));
+  EXPECT_TRUE(camera_comes_to_be([](ArvCamera* aravis, GError** error) {
+    return std::abs(arv_camera_get_exposure_time(aravis, error) - 2000) < 1e-6;
+  }));
+  EXPECT_TRUE(camera_comes_to_be([](ArvCamera* aravis, GError** error) {
+    return std::abs(arv_camera_get_frame_rate(aravis, error) - 100) < 1e-3;
+  }));
 }
 #endif
 
-TEST_F(AravisSourceTest, RateAndStampsAreTheCameras) {
+// It stamps by the host's own clock. The line lies below all arrivals and touches one; from there to the newest it
+// falls by max_drift at most.
+TEST_F(AravisSourceTest, StampsAreHalfAnExposureBeforeTheLeastLateArrivals) {
   const FakeGigeCamera camera;
-  settings_.rate_hz = 50;  // which it keeps on a busy machine, too
   Capture capture = this->capture();
-  ASSERT_TRUE(gets(capture, 25));
-  EXPECT_EQ(capture.report().clock_restarts, 0u);
-  // It stamps by the host's own clock, then paints the frame and sends it: stamps are that least delay behind its own
-  // time, and come more evenly than the arrivals.
-  std::vector<double> stamp_delays_s, arrival_delays_s;
-  std::vector<DeviceFrame> frames;
-  while (frames.size() < 25) {
-    const auto captured = capture.next();
-    if (!captured) continue;
-    frames.push_back(captured->frame);
-    const Stamp begin(Duration(static_cast<std::int64_t>(captured->frame.ticks)));
-    stamp_delays_s.push_back(seconds(captured->stamp - begin));
-    arrival_delays_s.push_back(seconds(captured->frame.heard.host - begin));
-  }
-  EXPECT_LT(spread(stamp_delays_s), spread(arrival_delays_s) + 0.0001);
   const double before_arrival_s = 0.5 * *settings_.exposure_s;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    EXPECT_LE(stamp_delays_s[i], arrival_delays_s[i] - before_arrival_s + 1e-6);
-    EXPECT_GE(stamp_delays_s[i], -before_arrival_s - 1e-3);
+  std::optional<std::uint64_t> first_ticks;
+  double least_delay_s = kLongest_s;
+  for (int i = 0; i < 50; ++i) {
+    const CapturedFrame captured = next_frame(capture);
+    const std::uint64_t ticks = captured.frame.ticks;
+    const double window_s = seconds(Duration(ticks - first_ticks.value_or(ticks)));
+    first_ticks = first_ticks.value_or(ticks);
+    const Stamp begin(Duration(static_cast<std::int64_t>(ticks)));
+    const double delay_s = seconds(captured.frame.heard.host - begin);
+    least_delay_s = std::min(least_delay_s, delay_s);
+    const double line_s = seconds(captured.stamp - begin) + before_arrival_s;
+    EXPECT_LE(line_s, delay_s + 1e-6);
+    EXPECT_GE(line_s, least_delay_s - ClockFitParams().max_drift * window_s - 1e-6);
   }
-  const double passed_s = seconds(Duration(frames.back().ticks - frames.front().ticks));
-  const double rate_hz = static_cast<double>(frames.back().id - frames.front().id) / passed_s;
-  EXPECT_NEAR(rate_hz, 50, 5);
-  EXPECT_NEAR(capture.report().rate_hz, rate_hz, 0.15 * rate_hz);
+}
+
+TEST_F(AravisSourceTest, RunsAtItsRateByOneClock) {
+  const FakeGigeCamera camera;
+  settings_.rate_hz = 20;
+  Capture capture = this->capture();
+  const auto ten_frames_do = [&] {
+    const std::uint64_t restarts = capture.report().clock_restarts;
+    const DeviceFrame first = next_frame(capture).frame;
+    for (int i = 0; i < 9; ++i) next_frame(capture);
+    const DeviceFrame last = next_frame(capture).frame;
+    const double rate_hz = static_cast<double>(last.id - first.id) / seconds(Duration(last.ticks - first.ticks));
+    return std::abs(rate_hz - 20) < 2 && std::abs(capture.report().rate_hz - rate_hz) < 0.15 * rate_hz &&
+           capture.report().clock_restarts == restarts;
+  };
+  EXPECT_TRUE(test::run_until(
+      ten_frames_do, [] {}, kLongest_s));
 }
 
 TEST_F(AravisSourceTest, FrozenThenBack) {
   FakeGigeCamera camera;
   Capture capture = this->capture();
-  ASSERT_TRUE(gets(capture, 10));
+  next_frame(capture);
   camera.freeze();
-  const auto frozen = std::chrono::steady_clock::now();
-  while (capture.report().state == CaptureState::kRunning) capture.next();  // no frame, no answer: whichever is first
-  EXPECT_LT(std::chrono::steady_clock::now() - frozen, std::chrono::seconds(1));
+  // no frame, no answer: whichever is first
+  EXPECT_TRUE(comes_true(capture, [&] { return capture.report().state != CaptureState::kRunning; }));
   camera.thaw();
-  EXPECT_TRUE(gets(capture, 10));
+  for (int i = 0; i < 10; ++i) next_frame(capture);
   EXPECT_GE(capture.report().reconnects, 1u);  // a camera that wakes slowly is taken up once more
 }
 
@@ -169,35 +206,37 @@ TEST_F(AravisSourceTest, FrozenThenBack) {
 TEST_F(AravisSourceTest, WaitsForItsTriggerAndIsKilled) {
   FakeGigeCamera camera;
   settings_.trigger = "Line9";
-  EXPECT_THROW(capture().open(), CameraRefusal);
+  EXPECT_THROW(start(), CameraRefusal);
   settings_.trigger = "Software";
   Capture capture = this->capture();
-  for (int i = 0; i < 3; ++i) EXPECT_FALSE(capture.next());  // thirty frames' time
-  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
+  const auto runs = [&] { return capture.report().state == CaptureState::kRunning; };
+  EXPECT_TRUE(test::run_until(
+      [&] {
+        bool waits = true;  // for longer than a camera may be silent
+        for (Duration time{}; time < 2 * Capture::kSilence; time += Capture::kPatience)
+          waits = !capture.next() && runs() && waits;
+        return waits;
+      },
+      [] {}, kLongest_s));
   camera.unplug();
-  const auto unplugged = std::chrono::steady_clock::now();
-  const auto passed = [&] { return std::chrono::steady_clock::now() - unplugged; };
-  while (capture.report().state == CaptureState::kRunning && passed() < std::chrono::seconds(20)) capture.next();
+  EXPECT_TRUE(comes_true(capture, [&] { return !runs(); }));
   EXPECT_EQ(capture.report().state, CaptureState::kClosed);
   EXPECT_NE(capture.report().fault.find("does not answer"), std::string::npos) << capture.report().fault;
-  EXPECT_LT(passed(), std::chrono::seconds(1));
   camera.plug_in();
-  while (capture.report().reconnects == 0 && passed() < std::chrono::seconds(30)) capture.next();
-  EXPECT_EQ(capture.report().state, CaptureState::kRunning);
+  EXPECT_TRUE(comes_true(capture, runs));
+  EXPECT_GE(capture.report().reconnects, 1u);
 }
 
 TEST_F(AravisSourceTest, LostPacketsCostFramesAndAreCounted) {
   const FakeGigeCamera camera(2);
   Capture capture = this->capture();
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (capture.report().dropped == 0 && std::chrono::steady_clock::now() < end) ASSERT_TRUE(gets(capture, 10));
-  EXPECT_GT(capture.report().missed[NoFrame::kIncomplete], 0u);
-  EXPECT_GE(capture.report().dropped, 1u);
+  EXPECT_TRUE(comes_true(
+      capture, [&] { return capture.report().missed[NoFrame::kIncomplete] > 0 && capture.report().dropped > 0; }));
 }
 
 TEST_F(AravisSourceTest, NotOnThatBus) {
   const FakeGigeCamera camera;
-  EXPECT_THROW(open_source("usb3:127.0.0.1"), CameraRefusal);
+  EXPECT_THROW(patiently([] { return open_source("usb3:127.0.0.1"); }), CameraRefusal);
 }
 
 }  // namespace
