@@ -134,10 +134,10 @@ void draining(benchmark::State& state) {
     truck.brokers = site.brokers = {broker.uri()};
     truck.client_id = "truck7";
     site.client_id = "site";
-    MqttLink truck_link(truck), site_link(site);
+    MqttLink truck_link(truck);
     Bridge bridge(test::bridge_params(folder / "outbox.db"), truck_link, test::clocks());
     for (int n = 1; n <= kQueue; ++n) bridge.take(change(n), test::clocks());
-    SiteClient client(site_link, 1, {}, "+", "+", [](const std::string&, const std::string&) {});
+    SiteClient client(link_to_each(site), {}, "+", "+", [](const std::string&, const std::string&) {});
     const auto poll = [&] {
       bridge.poll(test::clocks());
       client.poll(test::clocks().monotonic);

@@ -91,9 +91,8 @@ class WmsBridge : public testing::Test {
     MqttParams mqtt;
     mqtt.brokers = {broker_->uri()};
     mqtt.client_id = "site";
-    link_ = std::make_unique<MqttLink>(mqtt);
     site_ = std::make_unique<SiteClient>(
-        *link_, 1, BackOff{from_seconds(0.05), from_seconds(0.2)}, "lodestar", "truck7",
+        link_to_each(mqtt), BackOff{from_seconds(0.05), from_seconds(0.2)}, "lodestar", "truck7",
         [this](const std::string&, const std::string& document) { arrived_.push_back(json::parse(document)); });
     mqtt.client_id = "master_control";
     vda_ = std::make_unique<MqttLink>(mqtt);
@@ -154,7 +153,7 @@ class WmsBridge : public testing::Test {
   ros::Publisher battery_ = nh_.advertise<sensor_msgs::BatteryState>("/battery", 1, true);
   ros::Publisher integrity_ = nh_.advertise<PoseIntegrity>("/pose/integrity", 1);
   std::unique_ptr<test::Broker> broker_;
-  std::unique_ptr<MqttLink> link_, vda_;
+  std::unique_ptr<MqttLink> vda_;
   std::unique_ptr<SiteClient> site_;
   std::vector<json> arrived_;
   std::map<std::string, json> vda_heard_;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/bridge_params.hpp"
+#include "support/fake_link.hpp"
 #include "support/pallet_changes.hpp"
 #include "support/rtree_damage.hpp"
 #include "support/temporary_folder.hpp"
@@ -19,38 +20,8 @@ namespace {
 
 using nlohmann::json;
 using test::change;
+using test::FakeLink;
 using test::uuid;
-
-class FakeLink : public MessageLink {
- public:
-  void connect(std::size_t broker, const MqttMessage& will) override {
-    tried.push_back(broker);
-    wills.push_back(will);
-    inbox.push_back(working.at(broker) ? LinkEvent(LinkUp{}) : LinkEvent(LinkDown{"refused"}));
-  }
-  void subscribe(const std::string& topic, int) override { subscribed.push_back(topic); }
-  bool publish(const MqttMessage& message) override {
-    sent.push_back(message);
-    return true;
-  }
-  void disconnect() override {}
-  std::vector<LinkEvent> take() override { return std::exchange(inbox, {}); }
-
-  std::vector<MqttMessage> on(const std::string& end_of_topic) const {
-    std::vector<MqttMessage> out;
-    for (const MqttMessage& message : sent)
-      if (message.topic.size() >= end_of_topic.size() &&
-          message.topic.compare(message.topic.size() - end_of_topic.size(), std::string::npos, end_of_topic) == 0)
-        out.push_back(message);
-    return out;
-  }
-
-  std::vector<bool> working = {true};
-  std::vector<std::size_t> tried;
-  std::vector<MqttMessage> wills, sent;
-  std::vector<std::string> subscribed;
-  std::vector<LinkEvent> inbox;
-};
 
 class BridgeTest : public testing::Test {
  protected:
