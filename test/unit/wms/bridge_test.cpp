@@ -187,9 +187,38 @@ TEST_F(BridgeTest, AnEventThatIsTakenTwiceIsRecordedOnce) {
   for (const int n : {2, 3, 6, 7, 7}) bridge.take(change(n), now());
   EXPECT_EQ(bridge.drops()[BridgeDrop::kKnown], 1u);
   PalletChange anew = change(7);
-  anew.stamp += from_seconds(5000);
+  anew.life = uuid(701);
   bridge.take(anew, now());
   EXPECT_EQ(bridge.store().last(), 5u) << "another of the same number";
+  anew.life = "";
+  bridge.take(anew, now());
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kLife], 1u);
+}
+
+TEST_F(BridgeTest, ATrackerFromAnOldBackupTellsNothingTwiceAndAllThatIsNew) {
+  params_.store.history = 1;
+  Bridge bridge(params_, link_, now());
+  constexpr int kEvents = 3000;
+  const auto of_life = [](int life, std::uint64_t n) {
+    PalletChange out = change(n);
+    out.life = uuid(700 + life);
+    return out;
+  };
+  // A life for each hundred, as with a restart a day; all is acknowledged and forgotten.
+  for (int n = 1; n <= kEvents; ++n) {
+    bridge.take(of_life(n / 100, n), now());
+    if (n % 50 != 0) continue;
+    acknowledge(bridge, n);
+    poll(bridge);
+  }
+  poll(bridge);
+  ASSERT_EQ(bridge.store().acknowledged(), kEvents + 0u);
+  for (int n = 1; n <= 450; ++n) bridge.take(of_life(n / 100, n), now());
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kKnown], 450u);
+  EXPECT_EQ(bridge.store().last(), kEvents + 0u);
+  for (int n = 451; n <= 460; ++n) bridge.take(of_life(90, n), now());
+  EXPECT_EQ(bridge.store().last(), kEvents + 10u);
+  EXPECT_EQ(bridge.store().last_heard(), heard_event(of_life(90, 460)));
 }
 
 TEST_F(BridgeTest, OddLabelsAndIds) {
