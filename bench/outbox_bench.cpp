@@ -43,12 +43,14 @@ class BareInserts {
     run(begin_);
     event_.bind(1, static_cast<std::int64_t>(change.sequence));
     event_.bind(2, static_cast<std::int64_t>(change.sequence));
-    event_.bind(3, static_cast<std::int64_t>(change.stamp.time_since_epoch().count()));
-    event_.bind(4, change.pallet.id);
-    event_.bind(5, 0);
-    event_.bind(6, draft);
-    event_.bind(7, "boot-1");
+    event_.bind(3, change.pallet.id);
+    event_.bind(4, 0);
+    event_.bind(5, draft);
+    event_.bind(6, "boot-1");
     run(event_);
+    life_.bind(1, change.life);
+    life_.bind(2, static_cast<std::int64_t>(change.sequence));
+    run(life_);
     pallet_.bind(1, change.pallet.id);
     pallet_.bind(2, change.pallet.sscc);
     pallet_.bind(3, static_cast<int>(change.pallet.state));
@@ -74,8 +76,9 @@ class BareInserts {
   SQLite::Database database_;
   SQLite::Statement begin_{database_, "BEGIN"}, commit_{database_, "COMMIT"};
   SQLite::Statement event_{database_,
-                           "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot)"
-                           " VALUES(?, ?, ?, ?, ?, ?, ?)"};
+                           "INSERT INTO event(sequence, heard, pallet, corrects, document, boot, clock_step_ns,"
+                           " synchronised) VALUES(?, ?, ?, ?, ?, ?, 0, 1)"};
+  SQLite::Statement life_{database_, "REPLACE INTO life VALUES(?1, ?2, ?2)"};
   SQLite::Statement pallet_{database_,
                             "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                             " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
@@ -134,10 +137,10 @@ void draining(benchmark::State& state) {
     truck.brokers = site.brokers = {broker.uri()};
     truck.client_id = "truck7";
     site.client_id = "site";
-    MqttLink truck_link(truck), site_link(site);
+    MqttLink truck_link(truck);
     Bridge bridge(test::bridge_params(folder / "outbox.db"), truck_link, test::clocks());
     for (int n = 1; n <= kQueue; ++n) bridge.take(change(n), test::clocks());
-    SiteClient client(site_link, 1, {}, "+", "+", [](const std::string&, const std::string&) {});
+    SiteClient client(link_to_each(site), {}, "+", "+", [](const std::string&, const std::string&) {});
     const auto poll = [&] {
       bridge.poll(test::clocks());
       client.poll(test::clocks().monotonic);

@@ -72,21 +72,22 @@ int tail(const po::variables_map& options) {
   const bool documents = options.count("documents") > 0;
   const auto wanted = options["count"].as<std::uint64_t>();
   std::uint64_t kept = 0;
-  MqttLink link(mqtt);
-  SiteClient site(link, mqtt.brokers.size(), BackOff(), options["manufacturer"].as<std::string>(),
+  SiteClient site(link_to_each(mqtt), BackOff(), options["manufacturer"].as<std::string>(),
                   options["serial"].as<std::string>(), [&](const std::string& topic, const std::string& document) {
                     ++kept;
                     show(topic, document, documents);
                   });
   std::signal(SIGINT, [](int) { stopped = true; });
   std::signal(SIGTERM, [](int) { stopped = true; });
-  std::string told;
+  std::vector<std::string> told(mqtt.brokers.size());
   while (!stopped && (wanted == 0 || kept < wanted)) {
     site.poll(Instant(std::chrono::steady_clock::now().time_since_epoch()));
-    if (!site.connected() && site.last_failure() != told) std::cerr << (told = site.last_failure()) << "\n";
+    for (std::size_t i = 0; i < told.size(); ++i)
+      if (const std::string& failure = site.failure(i); failure != told[i] && !(told[i] = failure).empty())
+        std::cerr << failure << "\n";
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  link.disconnect();
+  site.disconnect();
   return 0;
 }
 
@@ -98,8 +99,8 @@ int main(int argc, char** argv) {
   po::options_description options("Options");
   options.add_options()(
       "broker", po::value<std::vector<std::string>>()->default_value({"tcp://localhost:1883"}, "tcp://localhost:1883"),
-      "tcp:// or ssl://, may be given several times")("manufacturer", po::value<std::string>()->default_value("+"),
-                                                      "of the truck; +: any")(
+      "tcp:// or ssl://, may be given several times: it listens at all of them")(
+      "manufacturer", po::value<std::string>()->default_value("+"), "of the truck; +: any")(
       "serial", po::value<std::string>()->default_value("+"), "of the truck; +: any")(
       "documents", "print whole documents, one a line")("count", po::value<std::uint64_t>()->default_value(0),
                                                         "end after so many documents; 0: never");

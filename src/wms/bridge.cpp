@@ -58,6 +58,7 @@ void Bridge::with_store(const ClockReading& now, Job job) {
 
 void Bridge::take(PalletChange change, const ClockReading& now) {
   if (!valid_uuid(change.pallet.id)) return drops_.add(BridgeDrop::kPalletId);
+  if (!valid_uuid(change.life)) return drops_.add(BridgeDrop::kLife);
   if (!change.pallet.sscc.empty() && !is_sscc(change.pallet.sscc)) {
     drops_.add(BridgeDrop::kLabel);
     change.pallet.sscc.clear();

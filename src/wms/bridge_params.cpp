@@ -32,6 +32,8 @@ const char* name(BridgeDrop reason) {
   switch (reason) {
     case BridgeDrop::kPalletId:
       return "pallet_id";
+    case BridgeDrop::kLife:
+      return "life";
     case BridgeDrop::kLabel:
       return "label";
     case BridgeDrop::kKnown:

@@ -41,10 +41,6 @@ int execute(Statement& statement, const Values&... values) {
   return statement.exec();
 }
 
-/// So many rows are kept of events whose documents went. Pallet tracking tells its newest 500 again, and 1000 may wait
-/// on ROS.
-constexpr std::uint64_t kRowsKept = 2000;
-
 bool has_place(PalletState state) { return state == PalletState::kStanding || state == PalletState::kUncertain; }
 
 std::int64_t signed_of(std::uint64_t number) { return static_cast<std::int64_t>(number); }
@@ -65,8 +61,6 @@ SQLite::Database open_database(const std::string& path) {
   // fsync of a file that grew takes twice as long.
   database.exec("PRAGMA journal_size_limit = 8388608");
   migrate(database);
-  database.exec("PRAGMA temp_store = MEMORY");
-  database.exec("CREATE TEMP TABLE forgotten AS SELECT sequence, heard, stamp_ns, pallet FROM event LIMIT 0");
   require_sound(database, "SELECT rtreecheck('place')");  // quick_check takes its nodes for any blob
   return database;
 }
@@ -157,10 +151,12 @@ struct EventStore::Sql {
   Ballast ballast;
   Statement begin{database, "BEGIN"}, commit{database, "COMMIT"}, roll_back{database, "ROLLBACK"};
   Statement put_meta{database, "INSERT INTO meta VALUES(?, ?) ON CONFLICT(key) DO UPDATE SET value = excluded.value"};
-  Statement put_event{
-      database,
-      "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, boot, clock_step_ns,"
-      " synchronised) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT(heard, stamp_ns, pallet) DO NOTHING"};
+  Statement put_life{database,
+                     "INSERT INTO life VALUES(?, ?, ?) ON CONFLICT(life) DO UPDATE"
+                     " SET heard = excluded.heard, sequence = excluded.sequence WHERE excluded.heard > heard"};
+  Statement put_event{database,
+                      "INSERT INTO event(sequence, heard, pallet, corrects, document, boot, clock_step_ns,"
+                      " synchronised) VALUES(?, ?, ?, ?, ?, ?, ?, ?)"};
   Statement put_pallet{database,
                        "INSERT INTO pallet(id, sscc, state, zone, level, sequence) VALUES(?, ?, ?, ?, ?, ?)"
                        " ON CONFLICT(id) DO UPDATE SET sscc = excluded.sscc, state = excluded.state,"
@@ -171,7 +167,7 @@ struct EventStore::Sql {
   Statement get_events{database,
                        "SELECT sequence, document, frozen, corrects, synchronised,"
                        " clock_step_ns + CASE boot WHEN ?3 THEN ?4 ELSE IFNULL(step_ns, 0) END"
-                       " FROM event LEFT JOIN clock USING(boot) WHERE sequence >= ?1 AND frozen < 2"
+                       " FROM event LEFT JOIN clock USING(boot) WHERE sequence >= ?1"
                        " ORDER BY sequence LIMIT ?2"};
   Statement freeze_event{database, "UPDATE event SET document = ?, frozen = 1 WHERE sequence = ?"};
   Statement get_told{
@@ -181,17 +177,7 @@ struct EventStore::Sql {
       "(SELECT told.pallet FROM event AS told JOIN event AS correction ON told.heard = correction.corrects"
       " WHERE correction.sequence = ?1 AND told.sequence < ?1 ORDER BY told.sequence DESC LIMIT 1))"
       " ORDER BY sequence"};
-  /// Without its document a row is small, and still knows an event that is told again. It is deleted and comes anew:
-  /// rows that shrink where they are give no page back. No step takes up more room than the one before gave.
-  Statement note_forgotten{database,
-                           "INSERT INTO forgotten SELECT sequence, heard, stamp_ns, pallet FROM event"
-                           " WHERE sequence BETWEEN ? AND ? AND frozen < 2"};
-  Statement drop_forgotten{database, "DELETE FROM event WHERE sequence IN(SELECT sequence FROM forgotten)"};
-  Statement keep_forgotten{database,
-                           "INSERT INTO event(sequence, heard, stamp_ns, pallet, corrects, document, frozen)"
-                           " SELECT sequence, heard, stamp_ns, pallet, 0, '', 2 FROM forgotten"};
-  Statement clear_forgotten{database, "DELETE FROM forgotten"};
-  Statement forget_events{database, "DELETE FROM event WHERE sequence <= ?"};
+  Statement forget_events{database, "DELETE FROM event WHERE sequence BETWEEN ? AND ?"};
   Statement put_clock{database, "REPLACE INTO clock VALUES(?, ?, ?)"};
   Statement forget_clocks{database, "DELETE FROM clock WHERE boot <> ?"};
 };
@@ -217,13 +203,9 @@ void EventStore::load(const std::string& new_stream) {
     clock_offset_ = Duration(clock.getColumn(0).getInt64());
     clock_step_ = Duration(clock.getColumn(1).getInt64());
   }
-  Statement newest(sql_->database,
-                   "SELECT sequence, heard, stamp_ns, pallet FROM event ORDER BY sequence DESC LIMIT 1");
-  last_ = acknowledged_;
-  if (!newest.executeStep()) return;
-  last_ = std::max(last_, unsigned_of(newest.getColumn(0)));
-  last_heard_ = {unsigned_of(newest.getColumn(1)), Stamp(Duration(newest.getColumn(2).getInt64())),
-                 newest.getColumn(3).getString()};
+  Statement newest(sql_->database, "SELECT sequence, heard, life FROM life ORDER BY sequence DESC LIMIT 1");
+  last_ = std::max(acknowledged_, unsigned_of(sql_->database.execAndGet("SELECT IFNULL(MAX(sequence), 0) FROM event")));
+  if (newest.executeStep()) last_heard_ = {unsigned_of(newest.getColumn(1)), newest.getColumn(2).getString()};
 }
 
 /// One transaction. @return false: no room, nothing was changed
@@ -268,10 +250,10 @@ Recorded EventStore::record(const PalletChange& change, const std::string& draft
 }
 
 Recorded EventStore::insert(const PalletChange& change, const std::string& draft, const WallClock& clock) {
-  const int inserted = execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence),
-                               ticks(change.stamp.time_since_epoch()), change.pallet.id, signed_of(change.corrects),
-                               draft, params_.boot, ticks(clock.step - clock_step_), clock.synchronised ? 1 : 0);
-  if (inserted == 0) return Recorded::kKnown;
+  const int is_new = execute(sql_->put_life, change.life, signed_of(change.sequence), signed_of(last_ + 1));
+  if (is_new == 0) return Recorded::kKnown;
+  execute(sql_->put_event, signed_of(last_ + 1), signed_of(change.sequence), change.pallet.id,
+          signed_of(change.corrects), draft, params_.boot, ticks(clock.step - clock_step_), clock.synchronised ? 1 : 0);
   put_pallet(change);
   return Recorded::kNew;
 }
@@ -296,19 +278,8 @@ void EventStore::forget_pallet(const std::string& id) {
 bool EventStore::forget_history() {
   if (acknowledged_ == 0) return false;
   int forgotten = 0;
-  const bool done = run_with_reserve([&] { forgotten = forget(0, acknowledged_); });
+  const bool done = run_with_reserve([&] { forgotten = execute(sql_->forget_events, 0, signed_of(acknowledged_)); });
   return done && forgotten > 0;
-}
-
-/// @return how many documents went
-int EventStore::forget(std::uint64_t first, std::uint64_t last) {
-  if (last > kRowsKept) execute(sql_->forget_events, signed_of(last - kRowsKept));
-  const int forgotten = execute(sql_->note_forgotten, signed_of(first), signed_of(last));
-  if (forgotten == 0) return 0;
-  execute(sql_->drop_forgotten);
-  execute(sql_->keep_forgotten);
-  execute(sql_->clear_forgotten);
-  return forgotten;
 }
 
 std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size_t most, const Freeze& freeze) {
@@ -333,11 +304,11 @@ std::vector<StoredDocument> EventStore::documents(std::uint64_t first, std::size
 bool EventStore::acknowledge(std::uint64_t sequence) {
   if (sequence <= acknowledged_ || sequence > last_) return true;
   const auto outside_history = [this](std::uint64_t number) {
-    return std::max(number, params_.history) - params_.history;
+    return signed_of(std::max(number, params_.history) - params_.history);
   };
   const bool done = run_with_reserve([&] {
     execute(sql_->put_meta, "acknowledged", std::to_string(sequence));
-    forget(outside_history(acknowledged_), outside_history(sequence));
+    execute(sql_->forget_events, outside_history(acknowledged_), outside_history(sequence));
     if (sequence == last_) execute(sql_->forget_clocks, params_.boot);
   });
   if (!done) return false;

@@ -36,7 +36,8 @@ class MqttLink::Connection : private mqtt::iaction_listener {
  public:
   Connection(const MqttParams& params, const std::string& broker, const MqttMessage& will)
       : broker_(broker), client_(broker, params.client_id) {
-    client_.set_connection_lost_handler([this](const std::string& cause) { put(LinkDown{"lost: " + cause}); });
+    client_.set_connection_lost_handler(
+        [this](const std::string& cause) { put(LinkDown{"lost: " + broker_ + ": " + cause}); });
     client_.set_message_callback([this](mqtt::const_message_ptr message) {
       put(MqttMessage{message->get_topic(), message->get_payload_str(), message->get_qos(), message->is_retained()});
     });
@@ -126,6 +127,17 @@ std::vector<LinkEvent> MqttLink::take() {
   if (!connection_) return events;
   for (LinkEvent& event : connection_->take()) events.push_back(std::move(event));
   return events;
+}
+
+std::vector<std::unique_ptr<MessageLink>> link_to_each(const MqttParams& params) {
+  std::vector<std::unique_ptr<MessageLink>> links;
+  for (const std::string& broker : params.brokers) {
+    MqttParams one = params;
+    one.brokers = {broker};
+    if (!links.empty()) one.client_id += "-" + std::to_string(links.size() + 1);
+    links.push_back(std::make_unique<MqttLink>(one));
+  }
+  return links;
 }
 
 }  // namespace lodestar

@@ -1,5 +1,7 @@
 #include "lodestar/wms/site_client.hpp"
 
+#include <utility>
+
 namespace lodestar {
 namespace {
 
@@ -10,28 +12,44 @@ std::string beside(const std::string& topic, const std::string& level) {
 
 }  // namespace
 
-SiteClient::SiteClient(MessageLink& link, std::size_t brokers, const BackOff& back_off, const std::string& manufacturer,
-                       const std::string& serial, Keep keep)
-    : link_(link), brokers_(brokers, back_off), topics_(site_topics(manufacturer, serial)), keep_(std::move(keep)) {}
+SiteClient::SiteClient(std::vector<std::unique_ptr<MessageLink>> brokers, const BackOff& back_off,
+                       const std::string& manufacturer, const std::string& serial, Keep keep)
+    : topics_(site_topics(manufacturer, serial)), keep_(std::move(keep)) {
+  for (auto& link : brokers) posts_.push_back({std::move(link), BrokerList(1, back_off), ""});
+}
 
 void SiteClient::poll(Instant now) {
-  for (const LinkEvent& event : link_.take()) {
+  for (Post& post : posts_) listen(post, now);
+  acknowledge();
+}
+
+void SiteClient::listen(Post& post, Instant now) {
+  for (const LinkEvent& event : post.link->take()) {
     if (std::holds_alternative<LinkUp>(event)) {
-      brokers_.connected(now);
+      post.failure.clear();
+      post.attempts.connected(now);
       // In this order: what is known of a stream comes before its events. No word between site and broker is needed
       // (QoS 0): what gets lost is not acknowledged, and comes again.
-      for (const std::string& topic : {topics_.ack, topics_.stream, topics_.event}) link_.subscribe(topic, 0);
+      for (const std::string& topic : {topics_.ack, topics_.stream, topics_.event}) post.link->subscribe(topic, 0);
     } else if (const auto* down = std::get_if<LinkDown>(&event)) {
-      last_failure_ = down->reason;
-      brokers_.down(now);
+      post.failure = down->reason;
+      post.attempts.down(now);
     } else if (const auto* message = std::get_if<MqttMessage>(&event)) {
       take(*message);
     }
   }
-  for (const auto& [stream, topic] : to_acknowledge_)
-    link_.publish({topic, message_text(inbox_.acknowledgement(stream)), 1, true});
-  to_acknowledge_.clear();
-  if (const auto broker = brokers_.due(now)) link_.connect(*broker, {});
+  if (post.attempts.due(now)) post.link->connect(0, {});
+}
+
+/// At each broker: the truck may be at another by now, and finds there how far the site is.
+void SiteClient::acknowledge() {
+  for (const auto& [stream, topic] : std::exchange(to_acknowledge_, {}))
+    for (Post& post : posts_)
+      if (post.attempts.is_up()) post.link->publish({topic, message_text(inbox_.acknowledgement(stream)), 1, true});
+}
+
+void SiteClient::disconnect() {
+  for (Post& post : posts_) post.link->disconnect();
 }
 
 void SiteClient::take(const MqttMessage& message) {

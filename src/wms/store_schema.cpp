@@ -29,6 +29,25 @@ const char* const kMigrations[] = {
     // does. An event was set wrong by its own clock_step_ns and its boot's.
     R"(ALTER TABLE event ADD COLUMN synchronised INTEGER NOT NULL DEFAULT 1;
        CREATE TABLE clock(boot TEXT PRIMARY KEY, offset_ns INTEGER NOT NULL, step_ns INTEGER NOT NULL) WITHOUT ROWID;
+       CREATE INDEX event_pallet ON event(pallet);)",
+    // Up to which of the tracker's numbers all is recorded, for each of its lives: no event is known by a row of its
+    // own.
+    R"(CREATE TABLE life(life TEXT PRIMARY KEY, heard INTEGER NOT NULL, sequence INTEGER NOT NULL) WITHOUT ROWID;
+       DROP INDEX event_pallet;
+       ALTER TABLE event RENAME TO old_event;
+       CREATE TABLE event(
+         sequence INTEGER PRIMARY KEY,
+         heard INTEGER NOT NULL,          -- the tracker's own number
+         pallet TEXT NOT NULL,
+         corrects INTEGER NOT NULL,       -- the tracker's number of the event that this one calls wrong
+         document TEXT NOT NULL,          -- a draft until frozen
+         frozen INTEGER NOT NULL DEFAULT 0,
+         boot TEXT NOT NULL,
+         clock_step_ns INTEGER NOT NULL,
+         synchronised INTEGER NOT NULL);
+       INSERT INTO event SELECT sequence, heard, pallet, corrects, document, frozen, boot, clock_step_ns, synchronised
+         FROM old_event WHERE frozen < 2;
+       DROP TABLE old_event;
        CREATE INDEX event_pallet ON event(pallet);)"};
 
 }  // namespace

@@ -56,9 +56,8 @@ class WmsBridge : public testing::Test {
     MqttParams mqtt;
     mqtt.brokers = {broker_->uri()};
     mqtt.client_id = "site";
-    link_ = std::make_unique<MqttLink>(mqtt);
     site_ = std::make_unique<SiteClient>(
-        *link_, 1, BackOff{from_seconds(0.05), from_seconds(0.2)}, "lodestar", "truck7",
+        link_to_each(mqtt), BackOff{from_seconds(0.05), from_seconds(0.2)}, "lodestar", "truck7",
         [this](const std::string&, const std::string& document) { arrived_.push_back(json::parse(document)); });
     mqtt.client_id = "master_control";
     vda_ = std::make_unique<MqttLink>(mqtt);
@@ -103,6 +102,11 @@ class WmsBridge : public testing::Test {
   bool counted(const std::string& key, long at_least) {
     return until([&] { return diagnostics_.count(kNode, key) >= at_least; });
   }
+  bool says(const std::string& words, int at_least = diagnostic_msgs::DiagnosticStatus::ERROR) {
+    return until([&] {
+      return diagnostics_.message(kNode).find(words) != std::string::npos && diagnostics_.level(kNode) >= at_least;
+    });
+  }
   void publish(int first, int last) {
     for (int n = first; n <= last; ++n) events_.publish(pallet_event_message(change(n), "map"));
   }
@@ -124,7 +128,7 @@ class WmsBridge : public testing::Test {
   ros::Publisher battery_ = nh_.advertise<sensor_msgs::BatteryState>("/battery", 1, true);
   ros::Publisher integrity_ = nh_.advertise<PoseIntegrity>("/pose/integrity", 1);
   std::unique_ptr<test::Broker> broker_;
-  std::unique_ptr<MqttLink> link_, vda_;
+  std::unique_ptr<MqttLink> vda_;
   std::unique_ptr<SiteClient> site_;
   std::vector<json> arrived_;
   std::map<std::string, json> vda_heard_;
@@ -279,13 +283,13 @@ TEST_F(WmsBridge, AnEventThatWasWrittenDownIsToldWhoeverDies) {
 }
 
 TEST_F(WmsBridge, AGapIsAskedForUntilItIsAnsweredAndNoLonger) {
-  int newest = 6, asked = 0;
+  int oldest = 1, newest = 6, asked = 0;
   bool answers = false;
   using Request = PalletEventsAfter::Request;
   using Response = PalletEventsAfter::Response;
   const boost::function<bool(Request&, Response&)> after = [&](Request& request, Response& response) {
     ++asked;
-    for (int n = static_cast<int>(request.sequence) + 1; n <= newest; ++n)
+    for (int n = std::max(oldest, static_cast<int>(request.sequence) + 1); n <= newest; ++n)
       response.events.push_back(pallet_event_message(change(n), n == 7 ? "odom" : "map"));
     return answers;
   };
@@ -301,6 +305,8 @@ TEST_F(WmsBridge, AGapIsAskedForUntilItIsAnsweredAndNoLonger) {
   ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0 && asked > 0; })) << node.output();
   publish(6, 6);
   EXPECT_TRUE(counted("waiting for earlier ones", 1));
+  EXPECT_TRUE(
+      says("pallet tracking does not tell the events before the newest", diagnostic_msgs::DiagnosticStatus::WARN));
   EXPECT_TRUE(until([&] { return asked >= 2; })) << asked;
   EXPECT_TRUE(arrived_.empty()) << "with a gap before it";
   answers = true;
@@ -317,6 +323,12 @@ TEST_F(WmsBridge, AGapIsAskedForUntilItIsAnsweredAndNoLonger) {
   EXPECT_TRUE(counted("recorded", 7));
   EXPECT_EQ(diagnostics_.count(kNode, std::string("dropped: ") + name(MessageDrop::kFrame)), 1);
   EXPECT_EQ(diagnostics_.count(kNode, "missed"), 0);
+
+  // Nobody has 9 to 11 any more.
+  oldest = newest = 12;
+  publish(12, 12);
+  EXPECT_TRUE(says("3 pallet events were not heard", diagnostic_msgs::DiagnosticStatus::WARN));
+  EXPECT_TRUE(until([&] { return arrived_.size() == 8; }));
 }
 
 TEST_F(WmsBridge, ADamagedStoreBeginsAnewInTheOrderOfWhatHappened) {
@@ -352,12 +364,6 @@ TEST_F(WmsBridge, ADamagedStoreBeginsAnewInTheOrderOfWhatHappened) {
 }
 
 TEST_F(WmsBridge, SaysWhatIsWrongWithItsStore) {
-  const auto says = [&](const std::string& words) {
-    return until([&] {
-      return diagnostics_.message(kNode).find(words) != std::string::npos &&
-             diagnostics_.level(kNode) == diagnostic_msgs::DiagnosticStatus::ERROR;
-    });
-  };
   std::ofstream(folder_ / "wms.db") << std::string(10000, 'x');
   ros::param::set("/wms_bridge/store_max_mib", 1);
   NodeProcess node(kNode, folder_ / "node.log");

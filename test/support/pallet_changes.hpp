@@ -19,6 +19,7 @@ inline Stamp at(double time_s) { return Stamp(std::chrono::seconds(1790000000)) 
 inline PalletChange change(std::uint64_t n) {
   PalletChange change;
   change.sequence = n;
+  change.life = uuid(700);
   change.stamp = at(static_cast<double>(n));
   const int pallet = static_cast<int>((n - 1) / 2 % 20) + 1;
   change.kind = n % 2 == 1 ? PalletChangeKind::kPick : PalletChangeKind::kDrop;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lodestar/wms/mqtt_link.hpp"
@@ -15,15 +16,14 @@ namespace lodestar::test {
 
 const BackOff kQuick{from_seconds(0.05), from_seconds(0.2)};
 
-/// A site of its own connection that remembers what it was handed.
+/// A site that remembers what it was handed.
 struct Site {
-  /// @param brokers where it listens, at one of them at a time
   explicit Site(std::vector<std::string> brokers)
-      : link(mqtt("site", brokers)),
-        client(link, brokers.size(), kQuick, "+", "+", [this](const std::string&, const std::string& document) {
-          documents.push_back(document);
-          if (kept) kept();
-        }) {}
+      : client(link_to_each(mqtt("site", std::move(brokers))), kQuick, "+", "+",
+               [this](const std::string&, const std::string& document) {
+                 documents.push_back(document);
+                 if (kept) kept();
+               }) {}
 
   void poll() { client.poll(clocks().monotonic); }
   void expect_all_once(std::uint64_t count) const {
@@ -33,7 +33,6 @@ struct Site {
 
   std::vector<std::string> documents;
   std::function<void()> kept;  ///< called with each document, before it is acknowledged
-  MqttLink link;
   SiteClient client;
 };
 

@@ -35,6 +35,7 @@ Faults check(const BridgeParams& params, const std::string& file);
 /// Why something of a change does not go on.
 enum class BridgeDrop {
   kPalletId,  ///< no UUID: the event has no subject, and is dropped
+  kLife,      ///< no UUID: nobody could tell the event from another of its number, it is dropped
   kLabel,     ///< no SSCC: the event goes on without its label
   kKnown,     ///< the event was recorded before
   kLost,      ///< no room in the store for so long that memory ran out: the only way an event is lost

@@ -31,7 +31,7 @@ struct StoreCorrupt : std::runtime_error {
 
 enum class Recorded {
   kNew,    ///< durable
-  kKnown,  ///< the same event was recorded before
+  kKnown,  ///< it, or a later one of the tracker's life, was recorded before
   kFull,   ///< no room, nothing was changed
 };
 
@@ -64,8 +64,9 @@ struct MapBox {
 
 /// The events of this truck in an SQLite file that neither a kill nor a fall of power harms: write-ahead log, fsync
 /// with each commit. An event, the state of its pallet and its place (R*Tree) are one transaction. Events are numbered
-/// from 1 without gaps; the numbers belong to `stream()`, which a new file gets anew. An event that is not acknowledged
-/// is never deleted. A call that throws, or says that there is no room, has changed nothing.
+/// from 1 without gaps; the numbers belong to `stream()`, which a new file gets anew. What the tracker tells comes in
+/// the order of its numbers: one of its lives is known up to the last of them, for ever. An event that is not
+/// acknowledged is never deleted. A call that throws, or says that there is no room, has changed nothing.
 class EventStore {
  public:
   /// Makes the final document of a draft.
@@ -112,7 +113,6 @@ class EventStore {
   void put_pallet(const PalletChange& change);
   void forget_pallet(const std::string& id);
   bool forget_history();
-  int forget(std::uint64_t first, std::uint64_t last);
   template <class Job>
   bool run(Job job);
   template <class Job>

@@ -7,17 +7,15 @@
 
 namespace lodestar {
 
-/// What tells an event from every other: the tracker's own number comes again when its count begins anew.
+/// What tells an event from every other: the tracker's own number, which comes again when its count begins anew, and
+/// the run that gave it.
 struct HeardEvent {
   std::uint64_t sequence = 0;  ///< 0: none
-  Stamp stamp;
-  std::string pallet;
+  std::string life;
 
-  bool operator==(const HeardEvent& other) const {
-    return sequence == other.sequence && stamp == other.stamp && pallet == other.pallet;
-  }
+  bool operator==(const HeardEvent& other) const { return sequence == other.sequence && life == other.life; }
 };
 
-inline HeardEvent heard_event(const PalletChange& change) { return {change.sequence, change.stamp, change.pallet.id}; }
+inline HeardEvent heard_event(const PalletChange& change) { return {change.sequence, change.life}; }
 
 }  // namespace lodestar

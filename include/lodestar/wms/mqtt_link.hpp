@@ -41,4 +41,7 @@ class MqttLink : public MessageLink {
   std::vector<LinkEvent> failures_;  ///< of connections that never came about
 };
 
+/// A link to each broker of the list, each its only one. Their client ids differ: two names may be those of one broker.
+std::vector<std::unique_ptr<MessageLink>> link_to_each(const MqttParams& params);
+
 }  // namespace lodestar

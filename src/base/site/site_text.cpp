@@ -39,6 +39,7 @@ std::string line(const Zone& zone) {
   std::string out = "  - {code: " + in_quotes(zone.code) +
                     ", kind: " + (zone.kind == ZoneKind::kDock ? "dock" : "storage") + ", polygon_m: [" + polygon +
                     "], z_m: " + list({zone.bottom_m, zone.top_m});
+  if (zone.floor_m != 0) out += ", floor_m: " + print(zone.floor_m);
   if (!zone.levels_m.empty()) out += ", levels_m: " + list(zone.levels_m);
   if (!zone.pallet_type.empty()) out += ", pallet: " + in_quotes(zone.pallet_type);
   if (const auto& grid = zone.grid)

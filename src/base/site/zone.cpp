@@ -9,13 +9,18 @@ namespace {
 
 Eigen::Matrix2d turn(double yaw_rad) { return Eigen::Rotation2Dd(yaw_rad).toRotationMatrix(); }
 
+/// Where pallets stand. @param level ignored where the zone has no rack
+double height_m(const Zone& zone, std::size_t level) {
+  return zone.levels_m.empty() ? zone.floor_m : zone.levels_m[level];
+}
+
 Place grid_place(const Zone& zone, int column, int row, std::size_t level) {
   const PlaceGrid& grid = *zone.grid;
   Place place;
   place.code = zone.code + '/' + std::to_string(column + 1) + '/' + std::to_string(row + 1);
   if (!zone.levels_m.empty()) place.code += '/' + std::to_string(level + 1);
   const Eigen::Vector2d steps = grid.pitch_m.cwiseProduct(Eigen::Vector2d(column, row));
-  place.position_map << grid.first_m + turn(grid.yaw_rad) * steps, zone.levels_m.empty() ? 0.0 : zone.levels_m[level];
+  place.position_map << grid.first_m + turn(grid.yaw_rad) * steps, height_m(zone, level);
   place.yaw_rad = grid.yaw_rad;
   return place;
 }
@@ -61,7 +66,6 @@ std::vector<Place> packed_places(const Zone& zone, const Eigen::Vector2d& size_m
     low = low.min(along);
     high = high.max(along);
   }
-  const double z = zone.levels_m.empty() ? 0.0 : zone.levels_m.front();
   std::vector<Place> places;
   for (double x = low.x(); x + size_m.x() <= high.x(); x += size_m.x() + gap_m) {
     for (double y = low.y(); y + size_m.y() <= high.y(); y += size_m.y() + gap_m) {
@@ -69,7 +73,7 @@ std::vector<Place> packed_places(const Zone& zone, const Eigen::Vector2d& size_m
       // A millimetre less: what lies along the edge is inside, whatever rounding says.
       const Eigen::Vector2d nearly = size_m.array() - 1e-3;
       if (contains(zone.polygon_map, rectangle(centre, yaw_rad, nearly)))
-        places.push_back({zone.code, {centre.x(), centre.y(), z}, yaw_rad});
+        places.push_back({zone.code, {centre.x(), centre.y(), height_m(zone, 0)}, yaw_rad});
     }
   }
   return places;

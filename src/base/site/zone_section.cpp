@@ -8,8 +8,9 @@
 namespace lodestar {
 namespace {
 
-const std::vector<YamlKey> kZoneKeys = {{"code", true},      {"kind", true},    {"polygon_m", true}, {"z_m", false},
-                                        {"levels_m", false}, {"places", false}, {"pallet", false}};
+const std::vector<YamlKey> kZoneKeys = {{"code", true},    {"kind", true},      {"polygon_m", true},
+                                        {"z_m", false},    {"levels_m", false}, {"floor_m", false},
+                                        {"places", false}, {"pallet", false}};
 const std::vector<YamlKey> kPlaceKeys = {
     {"first_m", true}, {"pitch_m", true}, {"columns", true}, {"rows", true}, {"yaw_deg", false}};
 const Limits kCoordinate = within(-10000, 10000);
@@ -57,9 +58,14 @@ void read_heights(const YamlMap& map, Zone& zone) {
   if (const auto range = map.numbers("z_m", 2, 2, kCoordinate)) {
     zone.bottom_m = (*range)[0].value;
     zone.top_m = (*range)[1].value;
-    if (zone.top_m <= zone.bottom_m) map.fault("z_m", "is empty: give [bottom, top], as [0, 3]");
+    if (zone.top_m <= zone.bottom_m) return map.fault("z_m", "is empty: give [bottom, top], as [0, 3]");
   }
-  if (!map.has("levels_m")) return;
+  zone.floor_m = map.number("floor_m", within(zone.bottom_m, zone.top_m)).value_or(zone.floor_m);
+  if (!map.has("levels_m")) {
+    if (!map.has("floor_m") && (zone.bottom_m > 0 || zone.top_m < 0))
+      map.fault("z_m", "leaves out 0: say how high the zone's floor is (floor_m), or its rack's levels (levels_m)");
+    return;
+  }
   const auto levels = map.numbers("levels_m", 1, kMostLevels, within(zone.bottom_m, zone.top_m));
   if (!levels) return;
   for (const YamlMap::Number& level : *levels) zone.levels_m.push_back(level.value);

@@ -50,6 +50,7 @@ PalletLedger::Changes PalletLedger::take() { return std::exchange(changes_, {});
 
 void PalletLedger::write(PalletChange change) {
   change.sequence = sequence_ + 1;
+  change.life = life_;
   changes_.push_back(change);
   enter(std::move(change));
 }

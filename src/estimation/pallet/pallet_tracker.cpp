@@ -48,7 +48,7 @@ const char* name(PalletDrop reason) {
 PalletTracker::PalletTracker(const PalletTrackerParams& params, std::function<std::string()> new_id)
     : params_(params),
       new_id_(std::move(new_id)),
-      ledger_(params.sizes),
+      ledger_(params.sizes, params.life),
       load_(params.load),
       poses_(params.pose_kept_s, params.pose_age_max_s) {}
 

@@ -26,7 +26,8 @@ bool put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones,
   } else if (const Pallet* below = map.below(pose)) {
     pallet.level = below->level + 1;
   } else {
-    pallet.level = position.z() > kFloor_m + 3 * std::sqrt(pose.covariance(2, 2)) ? 1 : 0;
+    const double floor_m = zone == nullptr ? 0.0 : zone->floor_m;
+    pallet.level = position.z() > floor_m + kFloor_m + 3 * std::sqrt(pose.covariance(2, 2)) ? 1 : 0;
   }
   return true;
 }

@@ -88,6 +88,7 @@ Result<PalletChange, MessageDrop> pallet_change_from(const PalletEvent& message,
   if (!pallet) return pallet.error();
   PalletChange change;
   change.sequence = message.sequence;
+  change.life = message.life;
   change.stamp = stamp_from(message.header.stamp);
   change.kind = static_cast<PalletChangeKind>(message.kind);
   change.pallet = std::move(pallet).value();
@@ -102,6 +103,7 @@ PalletEvent pallet_event_message(const PalletChange& change, const std::string& 
   message.header.stamp = ros_time(change.stamp);
   message.header.frame_id = map_frame;
   message.sequence = change.sequence;
+  message.life = change.life;
   message.kind = static_cast<std::uint8_t>(change.kind);
   message.pallet = pallet_message(change.pallet);
   message.candidates = change.candidates;

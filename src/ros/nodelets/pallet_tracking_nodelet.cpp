@@ -51,10 +51,12 @@ void PalletTrackingNodelet::make_tracker() {
           {"site", 0, "zone " + zone.code + ": the vehicle file has no pallet '" + zone.pallet_type + "'"});
   refuse_faults(faults);
   params.sigmas = {vehicle.fork_height_sigma_m, vehicle.seat_sigma_m, vehicle.seat_sigma_rad};
-  tracker_ = std::make_unique<PalletTracker>(params, [] {
+  const auto new_id = [] {
     static boost::uuids::random_generator generator;
     return boost::uuids::to_string(generator());
-  });
+  };
+  params.life = new_id();
+  tracker_ = std::make_unique<PalletTracker>(params, new_id);
 }
 
 void PalletTrackingNodelet::take_pose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {

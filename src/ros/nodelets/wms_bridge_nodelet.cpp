@@ -42,9 +42,7 @@ ClockReading clocks() {
 
 }  // namespace
 
-HeardEvent heard_event(const PalletEvent& message) {
-  return {message.sequence, stamp_from(message.header.stamp), message.pallet.id};
-}
+HeardEvent heard_event(const PalletEvent& message) { return {message.sequence, message.life}; }
 
 void WmsBridgeNodelet::onInit() {
   ros::NodeHandle& nh = getNodeHandle();

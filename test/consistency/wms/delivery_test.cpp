@@ -163,13 +163,13 @@ TEST_F(Tls, AClientThatNobodyVouchesForIsRefused) {
 TEST_F(Tls, AStrangerInTheListIsPassedOver) {
   const auto known = broker("known"), stranger = broker("stranger");
   MqttLink link(trusting("known", "truck7", {uri(*stranger), uri(*known)}));
-  MqttLink site_link(trusting("known", "site", {uri(*known)}));
   BridgeParams params = test::bridge_params(store());
   params.brokers = 2;
   params.back_off = kQuick;
   Bridge bridge(params, link, test::clocks());
   std::size_t kept = 0;
-  SiteClient site(site_link, 1, kQuick, "+", "+", [&](const std::string&, const std::string&) { ++kept; });
+  SiteClient site(link_to_each(trusting("known", "site", {uri(*known)})), kQuick, "+", "+",
+                  [&](const std::string&, const std::string&) { ++kept; });
   for (int n = 1; n <= 20; ++n) bridge.take(test::change(n), test::clocks());
   EXPECT_TRUE(run_until([&] { return bridge.outbox().acknowledged() == 20; },
                         [&] {

@@ -94,12 +94,12 @@ class Heard : public testing::Test {
 };
 
 TEST_F(Heard, EveryKindOfDocumentIsValid) {
-  MqttLink link(test::mqtt("truck7", {broker_->uri()})), site_link(test::mqtt("site", {broker_->uri()}));
+  MqttLink link(test::mqtt("truck7", {broker_->uri()}));
   Bridge bridge(test::bridge_params(folder_ / "wms.db"), link, test::clocks());
   std::size_t kept = 0;
-  SiteClient site(site_link, 1, BackOff(), "lodestar", "truck7", [&](const std::string&, const std::string& document) {
-    keep("epcis_" + std::to_string(++kept), document);
-  });
+  SiteClient site(
+      link_to_each(test::mqtt("site", {broker_->uri()})), BackOff(), "lodestar", "truck7",
+      [&](const std::string&, const std::string& document) { keep("epcis_" + std::to_string(++kept), document); });
   const auto changes = all_kinds();
   for (const PalletChange& each : changes) bridge.take(each, test::clocks());
   ASSERT_TRUE(run_until([&] { return kept == changes.size(); },

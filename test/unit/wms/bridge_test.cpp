@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/bridge_params.hpp"
+#include "support/fake_link.hpp"
 #include "support/pallet_changes.hpp"
 #include "support/rtree_damage.hpp"
 #include "support/temporary_folder.hpp"
@@ -19,38 +20,8 @@ namespace {
 
 using nlohmann::json;
 using test::change;
+using test::FakeLink;
 using test::uuid;
-
-class FakeLink : public MessageLink {
- public:
-  void connect(std::size_t broker, const MqttMessage& will) override {
-    tried.push_back(broker);
-    wills.push_back(will);
-    inbox.push_back(working.at(broker) ? LinkEvent(LinkUp{}) : LinkEvent(LinkDown{"refused"}));
-  }
-  void subscribe(const std::string& topic, int) override { subscribed.push_back(topic); }
-  bool publish(const MqttMessage& message) override {
-    sent.push_back(message);
-    return true;
-  }
-  void disconnect() override {}
-  std::vector<LinkEvent> take() override { return std::exchange(inbox, {}); }
-
-  std::vector<MqttMessage> on(const std::string& end_of_topic) const {
-    std::vector<MqttMessage> out;
-    for (const MqttMessage& message : sent)
-      if (message.topic.size() >= end_of_topic.size() &&
-          message.topic.compare(message.topic.size() - end_of_topic.size(), std::string::npos, end_of_topic) == 0)
-        out.push_back(message);
-    return out;
-  }
-
-  std::vector<bool> working = {true};
-  std::vector<std::size_t> tried;
-  std::vector<MqttMessage> wills, sent;
-  std::vector<std::string> subscribed;
-  std::vector<LinkEvent> inbox;
-};
 
 class BridgeTest : public testing::Test {
  protected:
@@ -216,9 +187,38 @@ TEST_F(BridgeTest, AnEventThatIsTakenTwiceIsRecordedOnce) {
   for (const int n : {2, 3, 6, 7, 7}) bridge.take(change(n), now());
   EXPECT_EQ(bridge.drops()[BridgeDrop::kKnown], 1u);
   PalletChange anew = change(7);
-  anew.stamp += from_seconds(5000);
+  anew.life = uuid(701);
   bridge.take(anew, now());
   EXPECT_EQ(bridge.store().last(), 5u) << "another of the same number";
+  anew.life = "";
+  bridge.take(anew, now());
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kLife], 1u);
+}
+
+TEST_F(BridgeTest, ATrackerFromAnOldBackupTellsNothingTwiceAndAllThatIsNew) {
+  params_.store.history = 1;
+  Bridge bridge(params_, link_, now());
+  constexpr int kEvents = 3000;
+  const auto of_life = [](int life, std::uint64_t n) {
+    PalletChange out = change(n);
+    out.life = uuid(700 + life);
+    return out;
+  };
+  // A life for each hundred, as with a restart a day; all is acknowledged and forgotten.
+  for (int n = 1; n <= kEvents; ++n) {
+    bridge.take(of_life(n / 100, n), now());
+    if (n % 50 != 0) continue;
+    acknowledge(bridge, n);
+    poll(bridge);
+  }
+  poll(bridge);
+  ASSERT_EQ(bridge.store().acknowledged(), kEvents + 0u);
+  for (int n = 1; n <= 450; ++n) bridge.take(of_life(n / 100, n), now());
+  EXPECT_EQ(bridge.drops()[BridgeDrop::kKnown], 450u);
+  EXPECT_EQ(bridge.store().last(), kEvents + 0u);
+  for (int n = 451; n <= 460; ++n) bridge.take(of_life(90, n), now());
+  EXPECT_EQ(bridge.store().last(), kEvents + 10u);
+  EXPECT_EQ(bridge.store().last_heard(), heard_event(of_life(90, 460)));
 }
 
 TEST_F(BridgeTest, OddLabelsAndIds) {

@@ -15,7 +15,7 @@ class EventIntakeTest : public testing::Test {
   /// Event n of the tracker's life-th life.
   static PalletChange event(std::uint64_t n, int life) {
     PalletChange event = test::change(n);
-    event.stamp += from_seconds(1e6 * life);
+    event.life = test::uuid(700 + life);
     return event;
   }
   PalletChange event(std::uint64_t n) const { return event(n, life_); }

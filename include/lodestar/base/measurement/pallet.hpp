@@ -41,6 +41,7 @@ enum class PalletChangeKind : std::uint8_t {
 /// What happened to one pallet, with the pallet as it is afterwards (lodestar/PalletEvent on the wire).
 struct PalletChange {
   std::uint64_t sequence = 0;  ///< 1 for this truck's first; without gaps
+  std::string life;            ///< UUID of the tracker's run that gave the number: with it no number comes twice
   Stamp stamp;                 ///< when it happened
   PalletChangeKind kind = PalletChangeKind::kPick;
   Pallet pallet;

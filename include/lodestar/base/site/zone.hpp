@@ -29,6 +29,7 @@ struct Zone {
   FloorPolygon polygon_map;               ///< m
   double bottom_m = -1.0, top_m = 100.0;  ///< of map's z; both belong to it
   std::vector<double> levels_m;           ///< z of the rack's levels, ascending; empty: no rack
+  double floor_m = 0.0;                   ///< z of what pallets stand on where there is no rack
   std::optional<PlaceGrid> grid;          ///< empty: the zone has no places of its own
   std::string pallet_type;                ///< of a pallet that nobody has met before; empty: the vehicle file's first
 };

@@ -15,7 +15,8 @@ class PalletLedger {
  public:
   using Changes = std::vector<PalletChange>;
 
-  explicit PalletLedger(std::vector<PalletSize> sizes) : map_(std::move(sizes)) {}
+  /// @param life UUID of this run, another at each start: a ledger that takes up an old one gives its numbers again
+  PalletLedger(std::vector<PalletSize> sizes, std::string life) : map_(std::move(sizes)), life_(std::move(life)) {}
   /// Takes up what an earlier ledger kept().
   void restore(Changes kept);
 
@@ -54,6 +55,7 @@ class PalletLedger {
   void enter(PalletChange change);
 
   PalletMap map_;
+  std::string life_;
   std::deque<PalletChange> newest_;  ///< numbered without gaps
   std::uint64_t sequence_ = 0;
   Changes changes_;

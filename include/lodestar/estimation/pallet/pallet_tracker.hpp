@@ -26,6 +26,7 @@ struct PalletTrackerParams {
   double pose_kept_s = 5;
   double pose_age_max_s = 0.2;       ///< between a pick or drop and the pose that it is placed by
   double forget_gone_s = 7 * 86400;  ///< pallets that left the site are kept so long
+  std::string life;                  ///< UUID of this run, another at each start
 };
 
 /// Why a sample was not used, or what it lacked.

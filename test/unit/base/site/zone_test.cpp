@@ -14,7 +14,7 @@ namespace {
 const std::string kGood = R"(site: {name: hall}
 tone_table_hz: [6]
 zones:
-  - {code: IN, kind: dock, polygon_m: [[8, 3], [13, 3], [13, 8], [8, 8]]}
+  - {code: IN, kind: dock, polygon_m: [[8, 3], [13, 3], [13, 8], [8, 8]], floor_m: 0.2}
   - {code: A, kind: storage, polygon_m: [[14, 9], [19, 9], [19, 22], [14, 22]], z_m: [-0.5, 8],
      places: {first_m: [15, 10], pitch_m: [1.3, 0.9], columns: 3, rows: 12}}
   - code: R
@@ -40,6 +40,8 @@ TEST(Zones, are_read_and_written_back) {
   EXPECT_EQ(to_yaml(*again), to_yaml(*site));
   ASSERT_EQ(again->zones.size(), 3u);
   EXPECT_EQ(again->zones[2].grid->first_m, site->zones[2].grid->first_m);
+  EXPECT_EQ(again->zones[0].floor_m, 0.2);
+  EXPECT_EQ(again->zones[1].floor_m, 0);
   EXPECT_EQ(again->zones[1].pallet_type, "");
   EXPECT_EQ(again->zones[2].pallet_type, "industrial");
 }
@@ -105,6 +107,10 @@ INSTANTIATE_TEST_SUITE_P(
               "another"},
         Wrong{"[8, 3]", "[8]", "4: zones[0].polygon_m[0] has 1 numbers: give 2"},
         Wrong{"[8, 3]", "[8, .nan]", "4: zones[0].polygon_m[0][1] is \".nan\": give a finite number"},
+        Wrong{"z_m: [-0.5, 8]", "z_m: [4, 8]",
+              "5: zones[1].z_m leaves out 0: say how high the zone's floor is (floor_m), or its rack's levels "
+              "(levels_m)"},
+        Wrong{"z_m: [-0.5, 8]", "z_m: [4, 8], floor_m: 3", "5: zones[1].floor_m is 3: give a number from 4 to 8"},
         Wrong{"z_m: [-0.5, 8]", "z_m: [8, -0.5]", "5: zones[1].z_m is empty: give [bottom, top], as [0, 3]"},
         Wrong{"[0, 1.6, 3.2]", "[0, 3.2, 1.6]",
               "10: zones[2].levels_m does not rise: give the heights from the lowest level up, none twice"},

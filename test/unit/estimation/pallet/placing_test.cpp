@@ -64,6 +64,28 @@ TEST_F(FreePlacesTest, AFloorAboveTakesNoRoom) {
   EXPECT_EQ(codes(floor), Codes{"R/2/1"}) << "told a little below the floor, by its pose's error";
 }
 
+TEST_F(FreePlacesTest, PlacesAreAsHighAsWhatPalletsStandOn) {
+  Zone gallery = rack();
+  gallery.bottom_m = 3.8;
+  gallery.levels_m.clear();
+  gallery.floor_m = 4.1;
+  for (const bool grid : {true, false}) {
+    if (!grid) gallery.grid.reset();
+    const auto places = free_places(gallery, PalletSize{"epal"}, map_);
+    ASSERT_EQ(places.size(), 2u);
+    for (const Place& place : places) EXPECT_EQ(place.position_map.z(), 4.1) << grid;
+  }
+  Pallet pallet;
+  PalletPose pose;
+  pose.T_map_pallet.translation() << 0.65, 0.45, 4.15;
+  pose.covariance.setIdentity() *= 1e-4;
+  ASSERT_TRUE(put(pallet, pose, {gallery}, map_));
+  EXPECT_EQ(pallet.level, 0);
+  pose.T_map_pallet.translation().z() = 4.8;
+  ASSERT_TRUE(put(pallet, pose, {gallery}, map_));
+  EXPECT_EQ(pallet.level, 1);
+}
+
 TEST_F(FreePlacesTest, PackedPlacesLeaveOutWhatJutsIn) {
   Zone floor = rack();
   floor.levels_m.clear();
