@@ -52,7 +52,7 @@ CoreError boxminus(const CoreState& x2, const CoreState& x1) {
 
 void add_error(FilterState& state, const ErrorVector& e) {
   static_cast<CoreState&>(state) = boxplus(state, e.head<kCore>());
-  for (int i = 0; i < state.offset_count; ++i) state.offsets[i].value += e.segment<3>(kCore + 3 * i);
+  for (int i = 0; i < state.offset_count(); ++i) state.offsets[i].value += e.segment<3>(kCore + 3 * i);
 }
 
 }  // namespace lodestar::fusion

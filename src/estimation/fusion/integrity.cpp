@@ -94,7 +94,7 @@ void exclude_liars(FilterState& state, const IntegrityFactors& factors) {
   while (true) {
     int worst = -1;
     double most = factors.chi2_beacon;
-    for (int i = 0; i < state.offset_count; ++i) {
+    for (int i = 0; i < state.offset_count(); ++i) {
       if (!is_beacon(state.offsets[i]) || state.offsets[i].excluded) continue;
       const double distance2 = beacon_offset(state, i).distance2(state.P);
       if (distance2 <= most) continue;
@@ -116,7 +116,7 @@ double protection_level_m(const FilterState& state, const Rig& rig, const Integr
     lie = (std::sqrt(factors.chi2_time) + factors.missed) * std::sqrt(time_offset(state).slope2(J, state.P));
     lie = std::min(lie, most);
   }
-  for (int i = 0; i < state.offset_count; ++i) {
+  for (int i = 0; i < state.offset_count(); ++i) {
     if (!is_beacon(state.offsets[i]) || state.offsets[i].excluded) continue;
     const double slope = std::sqrt(beacon_offset(state, i).slope2(J, state.P));
     lie = std::max(lie, (std::sqrt(factors.chi2_beacon) + factors.missed) * slope);
@@ -126,7 +126,7 @@ double protection_level_m(const FilterState& state, const Rig& rig, const Integr
 
 std::vector<BeaconCheck> check_beacons(const FilterState& state) {
   std::vector<BeaconCheck> checks;
-  for (int i = 0; i < state.offset_count; ++i) {
+  for (int i = 0; i < state.offset_count(); ++i) {
     const SourceOffset& offset = state.offsets[i];
     if (!is_beacon(offset)) continue;
     checks.push_back({BeaconId{static_cast<std::uint32_t>(offset.source)},

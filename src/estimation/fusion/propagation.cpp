@@ -35,14 +35,29 @@ void relax_wheel_slip(FilterState& state, double dt_s) {
   state.wheel_slip_m_s *= keep;
 }
 
+using StepColumns = Eigen::Matrix<double, Eigen::Dynamic, kStepWrites, 0, kMaxSize, kStepWrites>;
+
+/// X F^T. Each part keeps itself and gains from few others: blocks of zeros in F - I are left out.
+template <class Columns>
+StepColumns times_transposed(const Columns& X, const StepJacobian& F) {
+  StepColumns out = X.template leftCols<kStepWrites>();
+  for (int row = 0; row < kStepWrites; row += 3)
+    for (int at = 0; at < kStepReads; at += 3) {
+      Eigen::Matrix3d gain = F.block<3, 3>(row, at);
+      if (at == row) gain.diagonal().array() -= 1.0;
+      if ((gain.array() != 0).any())
+        out.template middleCols<3>(row) += X.template middleCols<3>(at).lazyProduct(gain.transpose());
+    }
+  return out;
+}
+
 void spread(FilterState& state, const Transition& step, double dt_s, const PoseFilterParams& params) {
   Covariance& P = state.P;
-  const Eigen::Matrix<double, kStepWrites, Eigen::Dynamic, 0, kStepWrites, kMaxSize> rows =
-      step.F.lazyProduct(P.topRows<kStepReads>());
-  P.topRows<kStepWrites>() = rows;
+  const StepColumns columns = times_transposed(P.leftCols<kStepReads>(), step.F);
   const Eigen::Matrix<double, kStepWrites, kStepWrites> corner =
-      rows.leftCols<kStepReads>().lazyProduct(step.F.transpose()) + step.Q;
-  P.bottomLeftCorner(P.rows() - kStepWrites, kStepWrites) = rows.rightCols(P.cols() - kStepWrites).transpose();
+      times_transposed(columns.topRows<kStepReads>().transpose(), step.F) + step.Q;
+  P.leftCols<kStepWrites>() = columns;
+  P.topRows<kStepWrites>() = columns.transpose();
   P.topLeftCorner<kStepWrites, kStepWrites>() = 0.5 * (corner + corner.transpose());
 
   const auto walk = [&](int at, int length, double sigma) {

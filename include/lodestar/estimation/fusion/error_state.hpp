@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstdint>
 #include <optional>
 
@@ -98,15 +98,15 @@ struct Health {
 /// All that the filter knows at one instant.
 struct FilterState : CoreState {
   Stamp stamp;
-  std::array<SourceOffset, kMaxOffsets> offsets;
-  int offset_count = 0;
+  boost::container::static_vector<SourceOffset, kMaxOffsets> offsets;
   std::optional<Eigen::Vector3d> floor_place;  ///< where the tilt was last held against the floor's
   double time_offset_prior_s2 = 0;             ///< variance of the time offset at first; 0: switched off
   Covariance P = Covariance::Zero(kCore, kCore);
   Inputs inputs;
   Health health;
 
-  int size() const { return kCore + 3 * offset_count; }
+  int offset_count() const { return static_cast<int>(offsets.size()); }
+  int size() const { return kCore + 3 * offset_count(); }
 };
 
 /// Moves the state by an error vector of its size.

@@ -14,9 +14,11 @@ constexpr double kGravity_m_s2 = 9.80665;  ///< along -z of map; its local diffe
 constexpr int kStepReads = kMount;
 constexpr int kStepWrites = kGyroBias;
 
+using StepJacobian = Eigen::Matrix<double, kStepWrites, kStepReads>;
+
 /// Error after a step by the error before it, and the noise that the step adds.
 struct Transition {
-  Eigen::Matrix<double, kStepWrites, kStepReads> F = Eigen::Matrix<double, kStepWrites, kStepReads>::Zero();
+  StepJacobian F = StepJacobian::Zero();
   Eigen::Matrix<double, kStepWrites, kStepWrites> Q = Eigen::Matrix<double, kStepWrites, kStepWrites>::Zero();
 };
 

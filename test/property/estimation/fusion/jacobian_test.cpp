@@ -38,7 +38,7 @@ class Jacobians : public testing::TestWithParam<int> {
     x.gyro_scale = uniform(0.05);
     x.time_offset_s = uniform(0.01);
     x.wheel_slip_m_s = uniform(0.5);
-    x.offset_count = 2;
+    x.offsets.resize(2);
     x.P.setIdentity(x.size(), x.size());
     x.offsets[0].value = vector(0.1);
     x.offsets[1].value = vector(0.1);

@@ -11,7 +11,7 @@ namespace {
 
 FilterState some_state() {
   FilterState x;
-  x.offset_count = 2;
+  x.offsets.resize(2);
   std::srand(1);
   const Eigen::MatrixXd A = Eigen::MatrixXd::Random(x.size(), x.size());
   x.P = A * A.transpose() + Eigen::MatrixXd::Identity(x.size(), x.size());
