@@ -151,6 +151,13 @@ TEST_F(CaptureTest, ACameraThatWaitsForItsTriggerMayBeSilent) {
   EXPECT_EQ(frames_of(50), 0);
   EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
   EXPECT_EQ(script_.opened, 1);
+
+  script_.steps = {Step::kFrame, Step::kTimeout, Step::kFrame};
+  EXPECT_EQ(frames_of(3), 2) << "triggered twice";
+  EXPECT_EQ(frames_of(50), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().frames, 2u);
+  EXPECT_EQ(script_.opened, 1);
 }
 
 TEST_F(CaptureTest, ACameraThatIsGoneIsTriedUntilItIsBack) {
