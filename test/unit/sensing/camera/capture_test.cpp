@@ -201,6 +201,16 @@ TEST_F(CaptureTest, ADriverThatThrowsAnythingIsALostCamera) {
   EXPECT_EQ(frames_of(1), 1);
 }
 
+TEST_F(CaptureTest, WhenTheHostsClockWasSetTheCamerasIsLearntAgain) {
+  capture_.host_clock_set();
+  script_.steps.assign(4, Step::kFrame);
+  EXPECT_EQ(frames_of(2), 2);
+  EXPECT_EQ(capture_.report().clock_restarts, 0u);
+  capture_.host_clock_set();
+  EXPECT_EQ(frames_of(2), 2);
+  EXPECT_EQ(capture_.report().clock_restarts, 1u);
+}
+
 TEST_F(CaptureTest, ARecordingEnds) {
   script_.steps = {Step::kFrame, Step::kEnd};
   EXPECT_EQ(frames_of(10), 1);
