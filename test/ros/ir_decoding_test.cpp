@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include "lodestar/DistrustedBeaconArray.h"
 #include "lodestar/GetBeacons.h"
 #include "lodestar/base/site/site.hpp"
+#include "lodestar/line/beacon_memory.hpp"
 #include "lodestar/ros/convert/ir_frame.hpp"
 #include "lodestar/ros/convert/ir_samples.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
@@ -116,7 +118,16 @@ class IrDecoding : public testing::Test {
     confirm.request.beacon_id = id.value;
     return ros::service::call("/ir_decoding/confirm_beacon", confirm) && confirm.response.success;
   }
-  bool kept(BeaconId id) const { return text_of(memory_).find("id: " + std::to_string(id.value)) != std::string::npos; }
+  BeaconMemory memory() const { return parse_beacon_memory(text_of(memory_)).value_or(BeaconMemory()); }
+  bool kept(BeaconId id) const { return memory().confirmed.count(id) > 0; }
+  bool told_left_out(const std::vector<BeaconId>& ids) {
+    const auto same = [](const DistrustedBeacon& told, BeaconId id) { return told.beacon_id == id.value; };
+    return wait_for([&] {
+      if (left_out_.empty()) return false;
+      const auto& told = left_out_.last().beacons;
+      return std::equal(told.begin(), told.end(), ids.begin(), ids.end(), same);
+    });
+  }
   bool in_conflict(BeaconId id) {
     GetBeacons table;
     EXPECT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
@@ -137,8 +148,9 @@ class IrDecoding : public testing::Test {
   Inbox<BeaconAnnouncement> announcements_{nh_, "/beacons/announcements"};
   Inbox<BeaconAnnouncement> conflicts_{nh_, "/beacons/conflicts"};
   Inbox<BeaconConfirmation> confirmed_{nh_, "/beacons/confirmed"};
+  Inbox<DistrustedBeaconArray> left_out_{nh_, "/beacons/left_out"};
   ros::Publisher distrusted_ = nh_.advertise<DistrustedBeaconArray>("/beacons/distrusted", 10);
-  ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 10);
+  ros::Publisher samples_ = nh_.advertise<IrSamples>("/ir/samples", 100);
   Diagnostics diagnostics_{nh_};
   std::size_t heard_before_ = 0;  ///< announcements, before the node was started
   long spoilt_ = 0;               ///< frames that were sent to it
@@ -318,6 +330,28 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_EQ(announcements_.last().levels.size(), 8u);
 }
 
+TEST_F(IrDecoding, WhoDrownsTheSamplesIsToldOf) {
+  ASSERT_TRUE(wait_for([&] { return samples_.getNumSubscribers() > 0; }));
+  sim::IrSampler sampler({}, 1);
+  sim::Random random(1, "jammer");
+  const auto drown = [&] {
+    std::array<std::uint8_t, RawIrFrame::kOctets> noise;
+    for (auto& octet : noise) octet = static_cast<std::uint8_t>(random.uniform(0, 255.9));
+    sampler.send({sampler.time_s() + 0.002, site_.link.bit_rate_bps, noise, std::vector<float>(8, 0.3f)});
+    for (int block = 0; block < 4; ++block) {
+      const Stamp stamp = Stamp(std::chrono::seconds(1000)) + from_seconds(sampler.time_s());
+      samples_.publish(ir_samples_message(sampler.next(1536, stamp), "ir_array"));
+    }
+  };
+  bool told = false;
+  for (int trial = 0; trial < 20 && !told; ++trial) {
+    for (int frame = 0; frame < 15; ++frame) drown();
+    told = wait_for([&] { return diagnostics_.message(kNode).find("most frames are spoilt") != std::string::npos; }, 2);
+  }
+  EXPECT_TRUE(told) << diagnostics_.message(kNode);
+  EXPECT_TRUE(announcements_.empty());
+}
+
 class IrDecodingWithKey : public IrDecoding {
  protected:
   void SetUp() override { start(keyed_site(ros::param::param<std::string>("/site", ""), folder_)); }
@@ -350,6 +384,48 @@ TEST_F(IrDecodingWithKey, ARecordingThatIsHeardFirstTakesNoConfirmationAway) {
   EXPECT_TRUE(wait_for([&] { return confirmed_.size() == told + 1; })) << "whoever started meanwhile has to know";
 }
 
+TEST_F(IrDecodingWithKey, ABeaconThatIsLeftOutStaysSoOverARestartUntilItIsConfirmed) {
+  const BeaconId id = site_.beacons[0].id;
+  EXPECT_TRUE(told_left_out({}));
+  hear(100, 0, 1.0);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 1; }));
+  EXPECT_TRUE(told_left_out({id}));
+
+  left_out_.clear();
+  restart();
+  EXPECT_TRUE(told_left_out({id})) << "before anything is heard";
+  EXPECT_TRUE(in_conflict(id));
+  EXPECT_TRUE(wait_for([&] {
+    return diagnostics_.message(kNode).find("left out until confirmed") != std::string::npos;
+  })) << diagnostics_.message(kNode);
+  EXPECT_FALSE(confirm(id)) << "not heard since";
+  hear(101);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 2; })) << "also where it agrees again";
+
+  ASSERT_TRUE(confirm(id));
+  EXPECT_TRUE(told_left_out({}));
+  restart();
+  EXPECT_FALSE(in_conflict(id));
+}
+
+TEST_F(IrDecodingWithKey, AConfirmationOutlivesARestartWhileARecordingContradictsIt) {
+  const BeaconId id = site_.beacons[0].id;
+  hear(100, 0, 1.0);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 1; }));
+  ASSERT_TRUE(confirm(id));
+  restart();
+  hear(77, 3600);
+  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 2; }));
+
+  restart();
+  EXPECT_TRUE(in_conflict(id));
+  hear(20000, 0, 1.0);
+  ASSERT_TRUE(wait_for([&] { return announcements_.size() == 1; })) << "a true frame, where it was confirmed";
+  EXPECT_FALSE(in_conflict(id));
+  EXPECT_TRUE(told_left_out({}));
+  EXPECT_TRUE(memory().left_out.empty());
+}
+
 TEST_F(IrDecodingWithKey, AMemoryThatIsNoListIsSetAsideAndTold) {
   std::ofstream(memory_) << "hello, I am no list\n";
   restart();
@@ -360,10 +436,14 @@ TEST_F(IrDecodingWithKey, AMemoryThatIsNoListIsSetAsideAndTold) {
   hear(100, 0, 1.0);
   ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 1; }));
   ASSERT_TRUE(confirm(site_.beacons[0].id));
-  hear(101, 0, 2.0);
-  ASSERT_TRUE(wait_for([&] { return conflicts_.size() == 2; }));
+  EXPECT_TRUE(kept(site_.beacons[0].id));
+  ASSERT_TRUE(wait_for([&] { return !confirmed_.empty(); }));
+  DistrustedBeaconArray distrusted;
+  distrusted.beacons = {distrusted_since(site_.beacons[0].id.value, confirmed_.last().header.stamp)};
+  ASSERT_TRUE(wait_for([&] { return distrusted_.getNumSubscribers() > 0; }));
+  distrusted_.publish(distrusted);
+  EXPECT_TRUE(wait_for([&] { return !kept(site_.beacons[0].id); }));
   EXPECT_NE(text_of(memory_), "");
-  EXPECT_FALSE(kept(site_.beacons[0].id));
   std::remove((memory_ + ".broken").c_str());
   restart();
   EXPECT_FALSE(std::ifstream(memory_ + ".broken").good());

@@ -54,6 +54,7 @@ class PoseSolving : public testing::Test {
   Inbox<geometry_msgs::PoseWithCovarianceStamped> fixes_{nh_, "/beacons/fix"};
   Diagnostics diagnostics_{nh_};
   ros::Publisher distrusted_out_ = nh_.advertise<DistrustedBeaconArray>("/beacons/distrusted", 10);
+  ros::Publisher left_out_out_ = nh_.advertise<DistrustedBeaconArray>("/beacons/left_out", 10);
   ros::Publisher sightings_out_ = nh_.advertise<BeaconSightingArray>("/beacons/sightings", 10);
 };
 
@@ -103,22 +104,24 @@ TEST_F(PoseSolving, FixesLieAtTheTruthAndBadInputIsCounted) {
   ASSERT_TRUE(all_is_heard());
   EXPECT_EQ(fixes_.size(), before);
 
-  // Beacons that the filter distrusts make no fix.
-  DistrustedBeaconArray distrusted;
-  for (const std::uint32_t id : {11, 12, 13, 14}) distrusted.beacons.emplace_back().beacon_id = id;
-  distrusted_out_.publish(distrusted);
+  // Beacons that the filter distrusts make no fix, nor do those that the decoder leaves out.
+  DistrustedBeaconArray all;
+  for (const std::uint32_t id : {11, 12, 13, 14}) all.beacons.emplace_back().beacon_id = id;
   const auto refused = [&] { return diagnostics_.count(kNode, "no fix: " + std::string(name(NoFix::kTooFewBeacons))); };
-  const long refused_before = refused();
-  EXPECT_TRUE(wait_for([&] {
-    sightings_out_.publish(good);
-    return refused() > refused_before;
-  }));
-  const std::size_t without = fixes_.size();
-  distrusted_out_.publish(DistrustedBeaconArray());
-  EXPECT_TRUE(wait_for([&] {
-    sightings_out_.publish(good);
-    return fixes_.size() > without;
-  }));
+  for (const ros::Publisher& out : {distrusted_out_, left_out_out_}) {
+    out.publish(all);
+    const long refused_before = refused();
+    EXPECT_TRUE(wait_for([&] {
+      sightings_out_.publish(good);
+      return refused() > refused_before;
+    })) << out.getTopic();
+    const std::size_t without = fixes_.size();
+    out.publish(DistrustedBeaconArray());
+    EXPECT_TRUE(wait_for([&] {
+      sightings_out_.publish(good);
+      return fixes_.size() > without;
+    })) << out.getTopic();
+  }
 
   // The line goes on, also after the clock jumped back.
   EXPECT_TRUE(player_.play_until([&] { return fixes_.size() > before + 5; }));

@@ -47,7 +47,7 @@ void ClockFit::add(std::uint64_t ticks, Stamp arrival) {
   const Sample sample{unwrapped(ticks, plus(newest.ticks, std::llround(elapsed_ticks))), arrival};
   if (contradicts(sample)) {
     restart();
-  } else if (since_newest_s(sample.ticks) <= 0) {
+  } else if (late_samples_ > 0 || since_newest_s(sample.ticks) <= 0) {
     return;
   }
   samples_.push_back(sample);
@@ -86,11 +86,12 @@ bool ClockFit::contradicts(const Sample& sample) {
     return false;
   }
   if (!late_since_) late_since_ = sample.arrival;
-  return ++late_samples_ >= kLateSamples && sample.arrival - *late_since_ >= kLateFor;
+  return ++late_samples_ >= kLateSamples && sample.arrival - *late_since_ >= params_.window;
 }
 
 void ClockFit::restart() {
   samples_.clear();
+  offset_s_ = drift_ = 0;
   late_since_.reset();
   late_samples_ = 0;
   ++restarts_;

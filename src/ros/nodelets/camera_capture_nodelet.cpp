@@ -85,6 +85,7 @@ void CameraCaptureNodelet::open_or_refuse() {
 
 void CameraCaptureNodelet::run() {
   while (!stop_) {
+    if (host_clock_.was_set()) capture_->host_clock_set();
     const auto frame = capture_->next();
     CaptureReport report = capture_->report();
     const bool lost = report.state == CaptureState::kClosed || report.state == CaptureState::kOver;

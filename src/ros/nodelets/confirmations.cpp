@@ -1,11 +1,6 @@
 #include "lodestar/ros/nodelets/confirmations.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "lodestar/ros/convert/announcement.hpp"
@@ -13,30 +8,8 @@
 
 namespace lodestar {
 namespace {
-
 constexpr double kSamePlace_m = 1e-6;
-
-void write(std::ostream& out, const Eigen::Vector3d& position) {
-  out << '[' << position.x() << ", " << position.y() << ", " << position.z() << ']';
 }
-
-Eigen::Vector3d position_in(const YAML::Node& node) {
-  const Eigen::Vector3d position(node[0].as<double>(), node[1].as<double>(), node[2].as<double>());
-  if (!position.allFinite()) throw std::invalid_argument("no place");
-  return position;
-}
-
-ToneSet tones_in(const YAML::Node& node) {
-  ToneSet tones;
-  for (const YAML::Node& tone : node) {
-    const int index = tone.as<int>();
-    if (index < 0 || index >= ToneSet::kMaxTones) throw std::invalid_argument("no tone");
-    tones.insert(index);
-  }
-  return tones;
-}
-
-}  // namespace
 
 Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string memory)
     : site_(site), file_(std::move(memory)) {
@@ -45,10 +18,11 @@ Confirmations::Confirmations(ros::NodeHandle& nh, const Site& site, std::string 
       if (left_out_.count(id) == 0) newcomer.publish(message(confirmation));
   };
   publisher_ = nh.advertise<BeaconConfirmation>("beacons/confirmed", 200, tell);
+  left_out_publisher_ = nh.advertise<DistrustedBeaconArray>("beacons/left_out", 1, true);
   distrusted_input_ = nh.subscribe("beacons/distrusted", 10, &Confirmations::take_distrusted, this);
 }
 
-BeaconConfirmation Confirmations::message(const Confirmation& confirmation) const {
+BeaconConfirmation Confirmations::message(const BeaconMemory::Confirmation& confirmation) const {
   BeaconConfirmation message;
   message.announcement = announcement_message(confirmation.announcement, site_.frame_id);
   message.header.frame_id = site_.frame_id;
@@ -72,87 +46,81 @@ const Beacon* Confirmations::in_site(BeaconId id) const {
   return found == site_.beacons.end() ? nullptr : &*found;
 }
 
-/// Those that still stand: the site file has not been brought up to date since.
-std::map<BeaconId, Confirmations::Confirmation> Confirmations::read(const std::string& text) const {
-  const YAML::Node list = YAML::Load(text);
-  if (!list.IsSequence()) throw std::invalid_argument("no list");
-  std::map<BeaconId, Confirmation> out;
-  for (const YAML::Node& entry : list) {
-    Confirmation confirmation;
-    confirmation.stamp = Stamp(Duration(entry["confirmed_ns"].as<std::int64_t>()));
-    Announcement& a = confirmation.announcement;
-    a.beacon = BeaconId{entry["id"].as<std::uint32_t>()};
-    a.position_map = position_in(entry["position_m"]);
-    a.tones = tones_in(entry["tones"]);
-    a.slot = static_cast<std::uint8_t>(entry["slot"].as<unsigned>());
-    a.surveyed = entry["surveyed"].as<bool>();
-    a.stamp = Stamp(Duration(entry["stamp_ns"].as<std::int64_t>()));
-    const Eigen::Vector3d site_position = position_in(entry["site_position_m"]);
-    const Beacon* beacon = in_site(a.beacon);
-    if (beacon != nullptr && (beacon->position_map - site_position).norm() < kSamePlace_m) out[a.beacon] = confirmation;
+void Confirmations::load_into(BeaconTable& table) {
+  BeaconMemory memory;
+  const auto understand = [&](const std::string& text) {
+    const auto parsed = parse_beacon_memory(text);
+    if (parsed) memory = *parsed;
+    return parsed.has_value();
+  };
+  file_.load(understand, "beacons that were confirmed have to be confirmed anew, others that were left out are in use");
+  for (const auto& [id, confirmation] : memory.confirmed) {
+    if (!still_stands(confirmation)) continue;
+    confirmed_[id] = confirmation;
+    table.confirm(confirmation.announcement);
   }
-  return out;
+  for (const auto& [id, said] : memory.left_out) table.distrust(said);
+  left_out_ = left_out_by(table);
+  tell_left_out();
 }
 
-void Confirmations::load_into(BeaconTable& table) {
-  const auto understand = [this](const std::string& text) {
-    confirmed_ = read(text);
-    return true;
-  };
-  file_.load(understand, "confirmed beacons have to be confirmed anew");
-  for (const auto& [id, confirmation] : confirmed_) table.confirm(confirmation.announcement);
+/// The site file has not been brought up to date since.
+bool Confirmations::still_stands(const BeaconMemory::Confirmation& confirmation) const {
+  const Beacon* beacon = in_site(confirmation.announcement.beacon);
+  return beacon != nullptr && (beacon->position_map - confirmation.site_position_map).norm() < kSamePlace_m;
 }
 
 // It answers what is known to be distrusted, also where the clock was set back since.
 void Confirmations::add(const Announcement& announcement, Stamp now) {
   const auto distrusted = distrusted_.find(announcement.beacon);
   if (distrusted != distrusted_.end()) now = std::max(now, distrusted->second + Duration(1));
-  const Confirmation confirmation{announcement, now};
+  const Beacon* beacon = in_site(announcement.beacon);
+  const BeaconMemory::Confirmation confirmation{announcement, now,
+                                                beacon ? beacon->position_map : announcement.position_map};
   publisher_.publish(message(confirmation));
-  if (in_site(announcement.beacon) == nullptr) return;
+  if (beacon == nullptr) return;
   confirmed_[announcement.beacon] = confirmation;
   left_out_.erase(announcement.beacon);
   save();
+  tell_left_out();
+}
+
+/// A beacon whose contradiction the table has forgotten, for time went backwards, keeps the one that was known.
+std::map<BeaconId, Announcement> Confirmations::left_out_by(const BeaconTable& table) const {
+  std::map<BeaconId, Announcement> out;
+  for (const auto& [id, entry] : table.entries()) {
+    if (!entry.in_site_file || !entry.conflict) continue;
+    out[id] = entry.contradiction ? *entry.contradiction : left_out_.at(id);
+  }
+  return out;
 }
 
 void Confirmations::follow(const BeaconTable& table) {
   if (table.revision() == revision_) return;
   revision_ = table.revision();
-  const std::set<BeaconId> before = left_out_;
-  left_out_.clear();
-  for (const auto& [id, entry] : table.entries())
-    if (entry.in_site_file && entry.conflict) left_out_.insert(id);
-  if (left_out_ == before) return;
-  for (const BeaconId id : before)
+  const auto before = std::exchange(left_out_, left_out_by(table));
+  const auto same_beacon = [](const auto& a, const auto& b) { return a.first == b.first; };
+  if (std::equal(before.begin(), before.end(), left_out_.begin(), left_out_.end(), same_beacon)) return;
+  for (const auto& [id, said] : before)
     if (confirmed_.count(id) > 0 && left_out_.count(id) == 0) publisher_.publish(message(confirmed_.at(id)));
   save();
+  tell_left_out();
+}
+
+void Confirmations::tell_left_out() {
+  DistrustedBeaconArray message;
+  for (const auto& [id, said] : left_out_) {
+    DistrustedBeacon& beacon = message.beacons.emplace_back();
+    beacon.beacon_id = id.value;
+    beacon.since = ros_time(said.stamp);
+  }
+  left_out_publisher_.publish(message);
 }
 
 void Confirmations::forget(BeaconId id) {
   if (confirmed_.erase(id) > 0) save();
 }
 
-void Confirmations::save() {
-  if (!file_.kept()) return;
-  std::ostringstream text;
-  text << "# Beacons that somebody has confirmed away from where the site file has them. Bring that up to date.\n["
-       << std::setprecision(12);
-  const char* separator = "";
-  for (const auto& [id, confirmation] : confirmed_) {
-    if (left_out_.count(id) > 0) continue;
-    const Announcement& a = confirmation.announcement;
-    text << std::exchange(separator, ",\n ") << "{id: " << id << ", position_m: ";
-    write(text, a.position_map);
-    text << ", tones: [";
-    for (const int tone : a.tones.indices()) text << (tone == a.tones.indices().front() ? "" : ", ") << tone;
-    text << "], slot: " << static_cast<int>(a.slot) << ", surveyed: " << std::boolalpha << a.surveyed
-         << ", stamp_ns: " << a.stamp.time_since_epoch().count()
-         << ", confirmed_ns: " << confirmation.stamp.time_since_epoch().count() << ", site_position_m: ";
-    write(text, in_site(id)->position_map);
-    text << '}';
-  }
-  text << "]\n";
-  file_.save(text.str());
-}
+void Confirmations::save() { file_.save(to_yaml({confirmed_, left_out_})); }
 
 }  // namespace lodestar

@@ -50,6 +50,7 @@ void IrReceiverNodelet::onInit() {
 
 void IrReceiverNodelet::take(const std::uint8_t* bytes, std::size_t count) {
   const Stamp arrival = stamp_from(ros::Time::now());
+  if (host_clock_.was_set()) link_->host_clock_set();
   const std::uint64_t before = link_->packets();
   link_->take(bytes, count, arrival,
               [this](const RawIrFrame& frame) { frames_.publish(ir_frame_message(frame, frame_id_)); });

@@ -74,7 +74,7 @@ MarkerArray beacon_markers(const std_msgs::Header& header, const std::map<Beacon
   for (const auto& [id, entry] : beacons) {
     const int number = static_cast<int>(id.value);
     const Eigen::Vector3d& p = entry.beacon.position_map;
-    const auto light = entry.conflict         ? color(0.95, 0.15, 0.15)
+    const auto light = !entry.in_force()      ? color(0.95, 0.15, 0.15)
                        : in_use.count(id) > 0 ? color(0.25, 1.00, 0.55)
                                               : color(0.75, 0.72, 0.55, 0.85);
     Marker lamp = marker(header, "beacons", number, Marker::CYLINDER, light);

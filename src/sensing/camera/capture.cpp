@@ -109,6 +109,10 @@ void Capture::lose(CaptureState state, const std::string& why) {
   fault_ = why;
 }
 
+void Capture::host_clock_set() {
+  if (stamper_) stamper_->host_clock_set();
+}
+
 CaptureReport Capture::report() const {
   CaptureReport report;
   report.state = state_;

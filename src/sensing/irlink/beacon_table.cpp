@@ -19,6 +19,10 @@ bool agree(const Eigen::Vector3d& position_map, ToneSet tones, double sigma_m, c
   return tones == announcement.tones && ((position_map - announcement.position_map).array().abs() <= gate_m).all();
 }
 
+bool contradicts(const Beacon& beacon, const Announcement& announcement) {
+  return !agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement) || beacon.slot != announcement.slot;
+}
+
 }  // namespace
 
 BeaconTable::BeaconTable(const Site& site) : has_key_(site.link.key.has_value()), clock_(site.link) {
@@ -45,9 +49,8 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
   } else if (!has_key_ && known->second.in_site_file && known->second.beacon.slot != announcement.slot) {
     return IrDrop::kSlot;
   }
-  const int corrections = clock_.corrections();
   if (const auto drop = clock_.accept(announcement)) return drop;
-  if (clock_.corrections() != corrections) forget_recordings(announcement);
+  if (has_key_) forget_recordings(announcement);
 
   Entry& entry = entries_[announcement.beacon];
   const auto drop =
@@ -58,9 +61,7 @@ std::optional<IrDrop> BeaconTable::judge(const Announcement& announcement) {
 }
 
 std::optional<IrDrop> BeaconTable::compare_with_site(Entry& entry, const Announcement& announcement) {
-  const Beacon& beacon = entry.beacon;
-  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement) || beacon.slot != announcement.slot)
-    contradict(entry, announcement);
+  if (contradicts(entry.beacon, announcement)) contradict(entry, announcement);
   if (entry.conflict) return IrDrop::kConflict;
   return std::nullopt;
 }
@@ -80,11 +81,11 @@ std::optional<IrDrop> BeaconTable::compare_with_past(Entry& entry, const Announc
   return IrDrop::kConflict;
 }
 
-/// A frame too early shows the phase to be late, be it by a recording or by a receiver that was late itself. Only what
-/// a recording said goes.
-void BeaconTable::forget_recordings(const Announcement& true_frame) {
+/// A frame earlier than what was heard before, in this run or in the last, shows that to be late, be it a recording or
+/// the receiver itself. Only what a recording said goes.
+void BeaconTable::forget_recordings(const Announcement& frame) {
   const auto recorded = [&](const std::optional<Announcement>& word) {
-    return word && clock_.is_recording(*word, true_frame);
+    return word && clock_.is_recording(*word, frame);
   };
   for (auto next = entries_.begin(); next != entries_.end();) {
     const auto known = next++;
@@ -120,11 +121,18 @@ void BeaconTable::learn(Entry& entry, const Announcement& announcement) {
   ++revision_;
 }
 
-void BeaconTable::distrust(BeaconId id) {
-  const auto known = entries_.find(id);
-  if (known == entries_.end() || known->second.conflict) return;
-  known->second.contradiction.reset();
-  set_conflict(known->second, true);
+void BeaconTable::distrust(const Announcement& contradiction) {
+  const auto known = entries_.find(contradiction.beacon);
+  if (known == entries_.end() || !known->second.in_site_file) return;
+  if (contradicts(known->second.beacon, contradiction)) contradict(known->second, contradiction);
+}
+
+void BeaconTable::leave_out(const std::set<BeaconId>& ids) {
+  for (auto& [id, entry] : entries_) {
+    const bool left_out = ids.count(id) > 0;
+    if (entry.left_out != left_out) ++revision_;
+    entry.left_out = left_out;
+  }
 }
 
 bool BeaconTable::confirm(BeaconId id) {
@@ -137,23 +145,21 @@ bool BeaconTable::confirm(BeaconId id) {
 void BeaconTable::confirm(const Announcement& announcement) {
   Entry& entry = entries_[announcement.beacon];
   if (!entry.last || entry.last->stamp < announcement.stamp) entry.last = announcement;
-  const Beacon& beacon = entry.beacon;
-  if (!agree(beacon.position_map, beacon.tones, beacon.sigma_m, announcement) || beacon.slot != announcement.slot)
-    learn(entry, announcement);
+  if (contradicts(entry.beacon, announcement)) learn(entry, announcement);
   set_conflict(entry, false);
 }
 
 std::vector<Beacon> BeaconTable::beacons() const {
   std::vector<Beacon> beacons;
   for (const auto& [id, entry] : entries_)
-    if (!entry.conflict) beacons.push_back(entry.beacon);
+    if (entry.in_force()) beacons.push_back(entry.beacon);
   return beacons;
 }
 
 std::vector<BeaconId> BeaconTable::heard(Stamp now, Duration max_age) const {
   std::vector<BeaconId> ids;
   for (const auto& [id, entry] : entries_)
-    if (!entry.conflict && entry.last && std::abs(seconds(now - entry.last->stamp)) <= seconds(max_age))
+    if (entry.in_force() && entry.last && std::abs(seconds(now - entry.last->stamp)) <= seconds(max_age))
       ids.push_back(id);
   return ids;
 }

@@ -41,8 +41,8 @@ bool SuperframeClock::in_phase(const Instant& reference, const Instant& instant)
   return std::abs(late_s(reference, instant)) <= kSlotShare * slot_s_ + drift_s(reference.stamp, instant.stamp);
 }
 
-bool SuperframeClock::is_recording(const Announcement& before, const Announcement& true_frame) const {
-  return late_s(instant_of(before), instant_of(true_frame)) < -superframe_s_ - drift_s(before.stamp, true_frame.stamp);
+bool SuperframeClock::is_recording(const Announcement& before, const Announcement& accepted) const {
+  return late_s(instant_of(before), instant_of(accepted)) < -superframe_s_ - drift_s(before.stamp, accepted.stamp);
 }
 
 /// Whether the beacon's own counter has grown.

@@ -22,14 +22,15 @@ struct ClockFitParams {
 /// Towsley, "Estimation and removal of clock skew from network delay measurements", INFOCOM 1999). What is left is the
 /// least delay ever seen, a constant of the device and its cable, and for whoever knows it to subtract.
 ///
-/// The counter may wrap around, also while nothing is heard. The fit starts anew when the samples contradict it: ticks
-/// that go back (the device was started again), an arrival too early, arrivals that stay late (the host's clock was
-/// set). Accuracy: docs/math/clock_fit.md.
+/// The counter may wrap around, also while nothing is heard. Arrivals far above the line teach nothing. The fit starts
+/// anew when the samples contradict it: ticks that go back (the device was started again), an arrival too early, or
+/// none but late ones as long as the window is (the host's clock was set). Whoever knows that it was set says so
+/// (host_clock_set), and nothing is late meanwhile. Accuracy: docs/math/clock_fit.md.
 class ClockFit {
  public:
-  static constexpr Duration kStep = std::chrono::milliseconds(20);  ///< early: no delay, but a clock that was set
-  static constexpr Duration kLateFor = std::chrono::seconds(2);     ///< later than kStep all this time: likewise
-  static constexpr int kLateSamples = 5;                            ///< and so many samples at least
+  /// Earlier: no delay, but a clock that was set. Later: a busy computer, or that.
+  static constexpr Duration kStep = std::chrono::milliseconds(20);
+  static constexpr int kLateSamples = 5;  ///< at least, before a clock is taken to have been set
 
   explicit ClockFit(const ClockFitParams& params);
 
@@ -39,6 +40,9 @@ class ClockFit {
 
   /// Empty before the first sample. `ticks` lie within half a turn of the counter from the newest.
   std::optional<Stamp> to_host(std::uint64_t ticks) const;
+
+  /// Starts anew with the next sample.
+  void host_clock_set() { restart(); }
 
   double drift() const { return drift_; }  ///< of the host's clock against the device's, as a fraction
   std::uint64_t restarts() const { return restarts_; }

@@ -11,6 +11,7 @@
 
 #include "lodestar/ros/nodelets/calibration.hpp"
 #include "lodestar/ros/nodelets/health.hpp"
+#include "lodestar/ros/nodelets/host_clock.hpp"
 #include "lodestar/ros/nodelets/image_pool.hpp"
 #include "lodestar/sensing/camera/capture.hpp"
 
@@ -34,6 +35,7 @@ class CameraCaptureNodelet : public nodelet::Nodelet {
   std::string frame_id_;
   ImagePool pool_;
   std::unique_ptr<Capture> capture_;  ///< of the thread, once it runs
+  HostClock host_clock_;              ///< likewise
   std::unique_ptr<Calibration> calibration_;
   std::unique_ptr<Health> health_;
   StreamWatch* images_watch_ = nullptr;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lodestar/ros/nodelets/health.hpp"
+#include "lodestar/ros/nodelets/host_clock.hpp"
 #include "lodestar/ros/nodelets/serial_line.hpp"
 #include "lodestar/sensing/irlink/board_link.hpp"
 
@@ -23,6 +24,7 @@ class IrReceiverNodelet : public nodelet::Nodelet {
   StreamWatch* packets_watch_ = nullptr;
   ros::Publisher frames_;
   std::unique_ptr<BoardLink> link_;
+  HostClock host_clock_;
   std::unique_ptr<SerialLine> line_;
   ros::WallTimer poll_;
 };

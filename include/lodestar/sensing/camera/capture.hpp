@@ -55,6 +55,9 @@ class Capture {
   /// The next frame. None: report() says why. A closed camera is tried again.
   std::optional<CapturedFrame> next();
 
+  /// Somebody set the host's clock: the camera's is learnt again.
+  void host_clock_set();
+
   CaptureReport report() const;
   /// What the camera that is or was open knows of its lens.
   const std::optional<CameraIntrinsics>& intrinsics() const { return info_.intrinsics; }

@@ -15,6 +15,7 @@ class FrameStamper {
   FrameStamper(const SourceInfo& source, double transfer_s);
 
   Stamp stamp(const DeviceFrame& frame);
+  void host_clock_set() { fit_.host_clock_set(); }
 
   /// How, in words, for diagnostics.
   std::string description() const;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "lodestar/base/common/drop_counts.hpp"
@@ -36,10 +37,13 @@ class BeaconTable {
     Beacon beacon;
     bool in_site_file = false;
     bool conflict = false;                      ///< with the site file or with its own earlier word: not used
-    std::optional<Announcement> contradiction;  ///< that made the conflict; empty: another's word did
+    bool left_out = false;                      ///< by another table's word: not used
+    std::optional<Announcement> contradiction;  ///< that made the conflict; empty: time went backwards since
     std::optional<Announcement> last;           ///< heard in time, agreeing or not; empty: never heard
     std::uint64_t heard = 0;
     int repeats = 0;  ///< announcements in a row that agree with one another
+
+    bool in_force() const { return !conflict && !left_out; }
   };
 
   explicit BeaconTable(const Site& site);
@@ -47,8 +51,12 @@ class BeaconTable {
   /// Takes an announcement in, or says why not; counts either way. A conflict takes the beacon out of force.
   std::optional<IrDrop> accept(const Announcement& announcement);
 
-  /// Takes a known beacon out of force until it is confirmed.
-  void distrust(BeaconId id);
+  /// An earlier run left a beacon of the site file out for what it said then: so does this one, if it still
+  /// contradicts.
+  void distrust(const Announcement& contradiction);
+
+  /// Takes these beacons out of force, and none else by this word, as a table that has heard more does.
+  void leave_out(const std::set<BeaconId>& ids);
 
   /// Somebody has looked after the beacon: what it last said of itself is right. Whether it has said anything.
   bool confirm(BeaconId id);
@@ -58,7 +66,7 @@ class BeaconTable {
   /// Counts a frame that the decoder refused.
   void count(IrDrop reason) { drops_.add(reason); }
 
-  /// The beacons in force: all that are known and not in conflict. Ascending by id.
+  /// The beacons in force: all that are known but those in conflict or left out. Ascending by id.
   std::vector<Beacon> beacons() const;
   /// Grows with each change of beacons().
   std::uint64_t revision() const { return revision_; }
@@ -79,7 +87,7 @@ class BeaconTable {
   std::optional<IrDrop> judge(const Announcement& announcement);
   std::optional<IrDrop> compare_with_site(Entry& entry, const Announcement& announcement);
   std::optional<IrDrop> compare_with_past(Entry& entry, const Announcement& announcement);
-  void forget_recordings(const Announcement& true_frame);
+  void forget_recordings(const Announcement& frame);
   void contradict(Entry& entry, const Announcement& announcement);
   void set_conflict(Entry& entry, bool conflict);
   void learn(Entry& entry, const Announcement& announcement);

@@ -41,6 +41,9 @@ class BoardLink {
   std::uint64_t packets() const { return packets_; }
   const DropCounts<BoardDrop>& packet_drops() const { return reader_.drops(); }
   const DropCounts<LinkDrop>& frame_drops() const { return drops_; }
+  /// Somebody set the host's clock: the board's is learnt again.
+  void host_clock_set() { clock_.host_clock_set(); }
+
   const ClockFit& clock() const { return clock_; }
 
  private:

@@ -41,9 +41,9 @@ class SuperframeClock {
   /// How often the phase was found late: what was accepted before may have been a stranger's recording.
   int corrections() const { return corrections_; }
 
-  /// Whether `before` came later than its counter says by more than a superframe, as the true frame counts. What comes
-  /// late by less says no more than the beacon itself says then.
-  bool is_recording(const Announcement& before, const Announcement& true_frame) const;
+  /// Whether `before` came later than its counter says by more than a superframe, as an accepted frame counts. What
+  /// comes late by less says no more than the beacon itself says then.
+  bool is_recording(const Announcement& before, const Announcement& accepted) const;
 
   /// Forgets everything: the next frame is believed.
   void reset();

@@ -14,6 +14,7 @@ struct Link {
   double drift;         ///< of the host's clock against the device's
   double mean_delay_s;  ///< exponential
   double busy;          ///< share of the samples that a busy computer delays by up to 5 ms more
+  double stuck_s = 0;   ///< of each ten seconds: all samples come 0.1 s later
 };
 
 /// Largest error of the mapped time of each sample after five seconds, over a minute.
@@ -32,6 +33,7 @@ double largest_error_s(const Link& link, std::uint64_t seed) {
     const Stamp truth = start + from_seconds(t_s * (1 + link.drift));
     double delay_s = -link.mean_delay_s * std::log(noise.uniform(1e-9, 1));
     if (noise.uniform(0, 1) < link.busy) delay_s += noise.uniform(0, 5e-3);
+    if (std::fmod(t_s, 10) > 10 - link.stuck_s) delay_s += 0.1;
     fit.add(ticks, truth + from_seconds(delay_s));
     if (t_s > 5) largest_s = std::max(largest_s, std::abs(seconds(fit.to_host(ticks).value() - truth)));
   }
@@ -50,6 +52,10 @@ double largest_error_s(const Link& link) {
 TEST(ClockFitProperty, AQuietCamera) { EXPECT_LT(largest_error_s({60, 100e-6, 0.1e-3, 0}), 10e-6); }
 
 TEST(ClockFitProperty, ACameraOnABusyComputer) { EXPECT_LT(largest_error_s({60, -100e-6, 0.5e-3, 0.3}), 40e-6); }
+
+TEST(ClockFitProperty, ACameraOnAComputerThatIsStuckHalfTheTime) {
+  EXPECT_LT(largest_error_s({60, -100e-6, 0.5e-3, 0.3, 5}), 200e-6);
+}
 
 TEST(ClockFitProperty, ABoardThatIsHeardOnceASecond) { EXPECT_LT(largest_error_s({1, 100e-6, 0.5e-3, 0.1}), 1.5e-3); }
 

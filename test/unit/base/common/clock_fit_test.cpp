@@ -61,6 +61,22 @@ TEST(ClockFit, LateSamplesDoNotMoveTheLine) {
   EXPECT_EQ(fit.restarts(), 0u);
 }
 
+// A computer that is busy for seconds, at once and after the line has long been known.
+TEST(ClockFit, SecondsOfLateSamplesDoNotMoveTheLine) {
+  for (const int known : {20, 100, 3000}) {
+    ClockFit fit(microseconds());
+    Device device;
+    hear(fit, device, known);
+    for (int i = 0; i < 500; ++i) {
+      hear(fit, device, 1, milliseconds(10), milliseconds(100));
+      ASSERT_NEAR(error_s(fit, device), 0, 1e-6) << known << ", " << i;
+    }
+    hear(fit, device, 100);
+    EXPECT_NEAR(error_s(fit, device), 0, 1e-6) << known;
+    EXPECT_EQ(fit.restarts(), 0u) << known;
+  }
+}
+
 TEST(ClockFit, LearnsTheDrift) {
   ClockFit fit(microseconds());
   Device device;
@@ -133,15 +149,26 @@ TEST(ClockFit, AHostClockSetBackIsFollowedAtOnce) {
   EXPECT_NEAR(error_s(fit, device), 0, 1e-6);
 }
 
-TEST(ClockFit, AHostClockSetForwardIsFollowedAfterTwoSeconds) {
+TEST(ClockFit, AHostClockSetForwardIsFollowedWhenNothingElseWasHeardForAWindow) {
   ClockFit fit(microseconds());
   Device device;
   hear(fit, device, 100);
   device.host += milliseconds(300);
-  hear(fit, device, 199);
+  hear(fit, device, 1999);
   EXPECT_EQ(fit.restarts(), 0u);
   hear(fit, device, 2);
   EXPECT_EQ(fit.restarts(), 1u);
+  EXPECT_NEAR(error_s(fit, device), 0, 1e-6);
+}
+
+TEST(ClockFit, AHostClockSetIsFollowedAtOnceWhereItIsKnown) {
+  ClockFit fit(microseconds());
+  Device device;
+  hear(fit, device, 100);
+  device.host += milliseconds(300);
+  fit.host_clock_set();
+  EXPECT_FALSE(fit.to_host(device.ticks));
+  hear(fit, device, 1);
   EXPECT_NEAR(error_s(fit, device), 0, 1e-6);
 }
 

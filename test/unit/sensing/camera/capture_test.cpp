@@ -151,6 +151,13 @@ TEST_F(CaptureTest, ACameraThatWaitsForItsTriggerMayBeSilent) {
   EXPECT_EQ(frames_of(50), 0);
   EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
   EXPECT_EQ(script_.opened, 1);
+
+  script_.steps = {Step::kFrame, Step::kTimeout, Step::kFrame};
+  EXPECT_EQ(frames_of(3), 2) << "triggered twice";
+  EXPECT_EQ(frames_of(50), 0);
+  EXPECT_EQ(capture_.report().state, CaptureState::kRunning);
+  EXPECT_EQ(capture_.report().frames, 2u);
+  EXPECT_EQ(script_.opened, 1);
 }
 
 TEST_F(CaptureTest, ACameraThatIsGoneIsTriedUntilItIsBack) {
@@ -192,6 +199,16 @@ TEST_F(CaptureTest, ADriverThatThrowsAnythingIsALostCamera) {
   EXPECT_EQ(frames_of(2), 1);
   EXPECT_EQ(capture_.report().fault, "anything");
   EXPECT_EQ(frames_of(1), 1);
+}
+
+TEST_F(CaptureTest, WhenTheHostsClockWasSetTheCamerasIsLearntAgain) {
+  capture_.host_clock_set();
+  script_.steps.assign(4, Step::kFrame);
+  EXPECT_EQ(frames_of(2), 2);
+  EXPECT_EQ(capture_.report().clock_restarts, 0u);
+  capture_.host_clock_set();
+  EXPECT_EQ(frames_of(2), 2);
+  EXPECT_EQ(capture_.report().clock_restarts, 1u);
 }
 
 TEST_F(CaptureTest, ARecordingEnds) {

@@ -267,9 +267,11 @@ TEST_F(V4l2SourceTest, AnExposureThatCanOnlyBeReadHasNoLimits) {
 
 TEST_F(V4l2SourceTest, LimitsAreTold) {
   settings_.exposure_s = 3;
+  settings_.gain = 1000;
   settings_.pixel_format = "mono8";
   EXPECT_EQ(refusal(),
             "v4l2:/dev/fake: exposure_s is 3 s, the camera takes 0.0001 to 0.5 s: choose one of these\n"
+            "v4l2:/dev/fake: gain is 1000, the camera takes 0 to 100: choose one of these\n"
             "v4l2:/dev/fake: pixel_format is 'mono8', the camera has yuyv, mjpeg: choose one of these\n");
 }
 

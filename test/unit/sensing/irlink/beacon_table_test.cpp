@@ -300,6 +300,62 @@ TEST(BeaconTable, takes_no_more_unknown_beacons_than_a_plant_can_have) {
   EXPECT_EQ(table.accept(at(1, 2, kPosition)), std::nullopt);
 }
 
+// What an earlier run has found out.
+TEST(BeaconTable, a_beacon_that_was_left_out_before_a_restart_is_left_out_while_it_contradicts) {
+  BeaconTable table(site_with_list());
+  table.distrust(at(1, 5, kPosition));
+  EXPECT_EQ(table.beacons().size(), 2u) << "the site file was brought up to date since";
+  table.distrust(at(9, 5, kPosition));
+  EXPECT_EQ(table.entries().size(), 2u) << "not of the site file";
+  table.distrust(at(1, 5, kPosition + Eigen::Vector3d::UnitX()));
+  ASSERT_EQ(table.beacons().size(), 1u);
+  EXPECT_EQ(table.revision(), 1u);
+  EXPECT_FALSE(table.confirm(BeaconId{1})) << "not heard since";
+  EXPECT_EQ(table.accept(at(1, 6, kPosition)), IrDrop::kConflict);
+  EXPECT_TRUE(table.confirm(BeaconId{1}));
+  EXPECT_EQ(table.beacons().size(), 2u);
+}
+
+TEST(BeaconTable, with_a_key_what_a_recording_had_left_out_before_a_restart_comes_back_with_the_first_true_frame) {
+  Site site = site_with_list();
+  const auto conflict_left = [&](double late_s) {
+    BeaconTable table(site);
+    table.distrust(heard(1, 5, 1000 + late_s, kPosition + Eigen::Vector3d::UnitX()));
+    table.accept(heard(2, 505));
+    return entry(table, 1).conflict;
+  };
+  EXPECT_TRUE(conflict_left(400)) << "without a key nobody can tell";
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  EXPECT_FALSE(conflict_left(400));
+  EXPECT_TRUE(conflict_left(0)) << "the beacon's own word";
+}
+
+// Then the stamps of what was heard say no more which came late.
+TEST(BeaconTable, a_conflict_from_before_time_went_backwards_is_no_recording) {
+  Site site = site_with_list();
+  site.link.key = std::array<std::uint8_t, 16>{1};
+  BeaconTable table(site);
+  EXPECT_EQ(table.accept(at(1, 5, kPosition + Eigen::Vector3d::UnitX())), IrDrop::kConflict);
+  table.reset_time();
+  EXPECT_EQ(table.accept(heard(2, 505, 100)), std::nullopt);
+  EXPECT_TRUE(entry(table, 1).conflict);
+}
+
+TEST(BeaconTable, those_that_another_table_leaves_out_are_out_of_force_as_long_as_it_says_so) {
+  BeaconTable table(site_with_list());
+  EXPECT_EQ(table.accept(at(1, 5, kPosition)), std::nullopt);
+  table.leave_out({BeaconId{1}, BeaconId{99}});
+  ASSERT_EQ(table.beacons().size(), 1u);
+  EXPECT_EQ(table.beacons()[0].id, BeaconId{2});
+  EXPECT_TRUE(table.heard(at(1, 5, kPosition).stamp, std::chrono::seconds(1)).empty());
+  EXPECT_EQ(table.revision(), 1u);
+  table.leave_out({BeaconId{1}});
+  EXPECT_EQ(table.revision(), 1u);
+  table.leave_out({});
+  EXPECT_EQ(table.beacons().size(), 2u);
+  EXPECT_EQ(table.revision(), 2u);
+}
+
 TEST(BeaconTable, counts_what_the_decoder_refused) {
   BeaconTable table{Site()};
   table.count(IrDrop::kCrc);

@@ -55,6 +55,17 @@ TEST(BoardLink, without_the_boards_time_there_is_no_frame) {
   EXPECT_EQ(board.link_.frame_drops()[LinkDrop::kNoClock], 2u);
 }
 
+TEST(BoardLink, when_the_hosts_clock_was_set_the_boards_time_is_waited_for) {
+  Board board;
+  board.time(1000);
+  board.link_.host_clock_set();
+  board.frame(1000.5);
+  EXPECT_EQ(board.link_.frame_drops()[LinkDrop::kNoClock], 1u);
+  board.time(1001);
+  board.frame(1001.5);
+  EXPECT_EQ(board.heard_.size(), 1u);
+}
+
 TEST(BoardLink, a_board_that_lies_about_the_time_is_not_believed) {
   Board board;
   board.time(1000);

@@ -88,6 +88,45 @@ TEST(BoardReader, a_cut_line_leaves_nothing_behind) {
   EXPECT_EQ(reader.drops().total(), 0u);
 }
 
+/// What a UART at `ratio` times the sender's baud rate makes of bytes that come without a pause: it waits for a falling
+/// edge, and takes eight bits from the middle of where it thinks that they are (8N1, idle high).
+Bytes heard_at_another_rate(const Bytes& sent, double ratio) {
+  std::vector<bool> line(10, true);
+  for (const std::uint8_t byte : sent) {
+    line.push_back(false);
+    for (int bit = 0; bit < 8; ++bit) line.push_back((byte >> bit) & 1);
+    line.push_back(true);
+  }
+  const auto level = [&](double bits) {
+    return bits >= static_cast<double>(line.size()) || line[static_cast<std::size_t>(bits)];
+  };
+  Bytes heard;
+  const double bit = 1 / ratio, step = bit / 16;
+  for (double at = 0; at < static_cast<double>(line.size());) {
+    if (level(at)) {
+      at += step;
+      continue;
+    }
+    std::uint8_t byte = 0;
+    for (int i = 0; i < 8; ++i) byte = static_cast<std::uint8_t>(byte | (level(at + (1.5 + i) * bit) << i));
+    heard.push_back(byte);
+    at += 9.5 * bit;
+  }
+  return heard;
+}
+
+TEST(BoardReader, frames_at_another_baud_rate_are_none_and_the_next_at_ours_is_read) {
+  Bytes sent;
+  for (std::uint64_t i = 0; i < 100; ++i)
+    sent = sent + encode_board_packet(frame(i)) + encode_board_packet(BoardTime{i});
+  EXPECT_EQ(heard_at_another_rate(sent, 1), sent);
+  for (const double baud : {9600, 19200, 38400, 57600, 230400, 460800, 921600}) {
+    BoardReader reader;
+    EXPECT_TRUE(read(reader, heard_at_another_rate(sent, 115200 / baud)).empty()) << baud;
+    EXPECT_EQ(read(reader, Bytes{0} + encode_board_packet(frame(7))).size(), 1u) << baud;
+  }
+}
+
 TEST(BoardReader, of_a_noisy_line_only_what_was_sent_passes) {
   std::mt19937 random(1);
   BoardReader reader;

@@ -111,6 +111,26 @@ TEST(IrDemodulator, the_stronger_of_two_at_once_is_heard) {
   EXPECT_TRUE(air.decodes(0, strong));
 }
 
+TEST(IrDemodulator, under_a_jammer_nothing_false_is_heard_and_after_him_the_next_frame_is) {
+  Air air;
+  std::array<std::uint8_t, RawIrFrame::kOctets> noise;
+  for (double begin_s = 0.001; begin_s < 0.2; begin_s += 0.007) {
+    for (auto& octet : noise) octet = static_cast<std::uint8_t>(air.random_.uniform(0, 255.9));
+    air.sampler_.send({begin_s, kBitRate_bps, noise, std::vector<float>(8, 0.3f)});
+  }
+  for (const double begin_s : {0.02, 0.06, 0.1, 0.14}) air.send(begin_s);
+  air.pass_seconds(0.25);
+  const IrFrameDecoder decoder(Link(), 8);
+  EXPECT_GE(air.heard_.size(), 5u) << "what is counted as spoilt";
+  for (const RawIrFrame& frame : air.heard_) EXPECT_FALSE(decoder.decode(frame));
+
+  const std::size_t before = air.heard_.size();
+  const Announcement said = air.send(0.26);
+  air.pass_seconds(0.3);
+  ASSERT_EQ(air.heard_.size(), before + 1);
+  EXPECT_TRUE(air.decodes(before, said));
+}
+
 TEST(IrDemodulator, a_frame_that_is_spoilt_hides_none_that_begins_within_it) {
   Air air;
   const std::vector<float> weak(8, 0.01f), strong(8, 0.08f);
