@@ -37,6 +37,22 @@ std::vector<double> candidate_tones(const CodeBookParams& params, int guard) {
   return spread_hz;
 }
 
+/// Whether one rhythm, or two tones and their beat, make the whole set: a tone is a multiple of another or the sum of
+/// two others. What glitters in passing does that (docs/math/detector.md, limits).
+bool intermodulates(ToneSet code, const std::vector<double>& tones_hz) {
+  constexpr double kAlike_hz = 1e-3;
+  std::vector<double> own_hz;
+  for (const int tone : code.indices()) own_hz.push_back(tones_hz[static_cast<std::size_t>(tone)]);
+  for (std::size_t high = 1; high < own_hz.size(); ++high) {
+    for (std::size_t low = 0; low < high; ++low) {
+      if (std::abs(std::remainder(own_hz[high], own_hz[low])) < kAlike_hz) return true;
+      for (std::size_t lower = 0; lower < low; ++lower)
+        if (std::abs(own_hz[lower] + own_hz[low] - own_hz[high]) < kAlike_hz) return true;
+    }
+  }
+  return false;
+}
+
 /// One code among the candidate tones.
 struct Assessed {
   ToneSet code;
@@ -64,7 +80,7 @@ class Bench {
   }
 
   void add_codes(ToneSet code, int first, int missing, std::vector<Assessed>& out) const {
-    if (missing == 0) out.push_back(assess(code));
+    if (missing == 0 && !intermodulates(code, tones_hz_)) out.push_back(assess(code));
     for (int tone = first; missing > 0 && tone < static_cast<int>(tones_hz_.size()); ++tone) {
       ToneSet longer = code;
       longer.insert(tone);

@@ -29,7 +29,8 @@ struct CodeBook {
 constexpr double kReserve_db = 4;
 
 /// The book of the strictest rules that holds `wanted` codes; if none does, the book with the most codes, which may be
-/// empty. Tones are multiples of rate / window and pass check_tones. Reference: docs/math/code_plan.md.
+/// empty. Tones are multiples of rate / window and pass check_tones; no tone of a code is a multiple of another of its
+/// tones, or the sum of two. Reference: docs/math/code_plan.md.
 CodeBook make_code_book(const CodeBookParams& params, int wanted);
 
 }  // namespace lodestar

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 
 #include "lodestar/base/common/angle.hpp"
 
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double kMergePx = 3.0;  ///< two sightings closer than this are one
 constexpr double kLongestPause_s = 3.0;
-constexpr double kStillImagePx = 0.1;  ///< the image stands when its centre moves less from frame to frame
+constexpr double kMostPeriodsAhead = 6;  ///< four frames lost in a row and 20 % of jitter are five and a half
+constexpr double kStillImagePx = 0.1;    ///< the image stands when its centre moves less from frame to frame
 
 }  // namespace
 
@@ -30,6 +32,8 @@ const char* name(FrameDrop reason) {
       return "duplicate stamp";
     case FrameDrop::kBackwards:
       return "stamp goes back";
+    case FrameDrop::kAhead:
+      return "stamp ahead";
     case FrameDrop::kCount:
       break;
   }
@@ -62,6 +66,7 @@ void BeaconDetector::reset() {
   tracker_.clear();
   lags_for_s_ = 0;
   searches_left_ = 0;
+  doubted_.reset();
 }
 
 std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
@@ -78,11 +83,25 @@ std::optional<FrameDrop> BeaconDetector::fault(const Image& image) const {
   if (image.width_px != camera_->intrinsics().width_px || image.height_px != camera_->intrinsics().height_px) {
     return FrameDrop::kSize;
   }
+  return std::nullopt;
+}
+
+/// One wild stamp must cost one frame, and not put all that follow in the past: the frame is let go until the next one
+/// says the same. As long as the rate is not known the later frame is right.
+std::optional<FrameDrop> BeaconDetector::stamp_fault(Stamp stamp) {
+  const auto doubted = std::exchange(doubted_, std::nullopt);
   if (window_.size() == 0) return std::nullopt;
   const Stamp before = window_.at(window_.newest()).stamp;
-  if (image.stamp == before) return FrameDrop::kDuplicate;
-  if (image.stamp < before) return FrameDrop::kBackwards;
-  return std::nullopt;
+  if (stamp == before) return FrameDrop::kDuplicate;
+  if (window_.size() < 3) {
+    if (stamp < before) reset();
+    return std::nullopt;
+  }
+  if (stamp < before) return FrameDrop::kBackwards;
+  const bool ahead = seconds(stamp - before) > kMostPeriodsAhead * window_.period_s();
+  if (!ahead || (doubted && stamp > *doubted)) return std::nullopt;
+  doubted_ = stamp;
+  return FrameDrop::kAhead;
 }
 
 bool BeaconDetector::breaks_window(const Image& image) const {
@@ -177,7 +196,9 @@ bool BeaconDetector::read_new(BlobTrack& track, double power_threshold, const Pi
 
 Result<Sightings, FrameDrop> BeaconDetector::process(const Image& image, const CameraMotion& camera_motion,
                                                      Sightings reuse) {
-  if (const auto reason = fault(image)) {
+  auto reason = fault(image);
+  if (!reason) reason = stamp_fault(image.stamp);
+  if (reason) {
     drops_.add(*reason);
     return *reason;
   }

@@ -22,27 +22,34 @@ inline const std::map<Lamps, const char*> kAllLamps = {{Lamps::kSteady, "steady"
                                                        {Lamps::kReflections, "reflections of lamps"},
                                                        {Lamps::kSun, "sun"}};
 
-/// Drives under lamps of one kind without a single beacon: what is sighted is a mistake. A straight aisle, the ceiling
-/// 6 m above the camera.
+/// Drives under lamps of one kind. A straight aisle, the ceiling 6 m above the camera. Beacons of a planned site hang
+/// among the lamps and are heard, but only one in four shines: those show that the line names at all, and each of the
+/// others is a name that lies ready for a lamp.
 struct HallOfLamps {
   Lamps lamps = Lamps::kSteady;
   double speed_m_s = 2;
   double mains_hz = 50;
   bool motion_input = true;
 
-  long frames = 0, sightings = 0, lamps_in_view = 0;
-  long named_alone = 0, named_heard = 0;  ///< without a receiver; as shipped, where names need announcements
-  std::map<ToneSet, long> codes;
+  long frames = 0, lamps_in_view = 0;
+  long sightings = 0;    ///< of no beacon
+  long named_alone = 0;  ///< ... that get a name without a receiver, where a site has every code of one to three tones
+  std::map<ToneSet, long> codes;  ///< ... by code
 
-  /// Sightings in a code that a site may give a beacon: two tones, none a multiple of the other (site_hall.yaml).
+  /// Names as the shipped line gives them.
+  struct Names {
+    long right = 0;
+    long wrong = 0;  ///< of a beacon that is dark, or elsewhere
+  };
+  Names heard;    ///< no pose yet: of those whose announcement is heard
+  Names located;  ///< once a pose is known
+
+  /// Sightings in a code that plan_codes gives.
   long nameable() const {
+    const std::vector<ToneSet> planned = planned_codes();
     long count = 0;
-    for (const auto& [code, times] : codes) {
-      if (code.size() != 2) continue;
-      const double low_hz = kPlanTones_hz[static_cast<std::size_t>(code.indices()[0])];
-      const double high_hz = kPlanTones_hz[static_cast<std::size_t>(code.indices()[1])];
-      count += std::fmod(high_hz, low_hz) != 0 ? times : 0;
-    }
+    for (const auto& [code, times] : codes)
+      count += std::find(planned.begin(), planned.end(), code) != planned.end() ? times : 0;
     return count;
   }
 
@@ -55,21 +62,24 @@ struct HallOfLamps {
     Noise& random = scene.random();
     const double turn_rad = random.uniform(0.02, 0.1), turn_hz = random.uniform(0.05, 0.3);
     const auto yaw_rad = [=](double t) { return turn_rad * std::sin(2 * kPi * turn_hz * t); };
-    const auto seen_from = [=](double t, const Eigen::Vector3d& place_map) -> Eigen::Vector2d {
+    const Eigen::Vector2d nowhere = Eigen::Vector2d::Constant(-1e9);
+    const auto place = [=](double t, const Eigen::Vector3d& place_map) -> Eigen::Vector2d {
       const Eigen::Vector3d ray(place_map.x() - speed_m_s * t, place_map.y(), place_map.z());
-      if (std::abs(ray.x()) > 25) return Eigen::Vector2d::Constant(-1e9);
       const auto projection = camera->project(so3_exp({0, 0, -yaw_rad(t)}) * ray);
-      return projection ? projection->pixel : Eigen::Vector2d::Constant(-1e9);
+      return projection ? projection->pixel : nowhere;
+    };
+    const auto seen_from = [=](double t, const Eigen::Vector3d& place_map) {
+      constexpr double kSight_m = 25;
+      return std::abs(place_map.x() - speed_m_s * t) > kSight_m ? nowhere : place(t, place_map);
     };
     hang(speed_m_s * duration_s, seen_from, scene);
+    const std::vector<Beacon> site = hang_beacons(speed_m_s * duration_s, seen_from, scene);
 
     BeaconDetector detector = detector_for(scene, plan_params(), lens);
-    const std::vector<Beacon> beacons = one_of_each_code();
-    BeaconNamer alone({}), heard([] {
-      BeaconNamerParams params;
-      params.require_announcement = true;
-      return params;
-    }());
+    const std::vector<Beacon> every_code = one_of_each_code();
+    BeaconNamerParams shipped;
+    shipped.require_announcement = true;
+    BeaconNamer alone({}), as_shipped(shipped);
     CameraMotion motion;
     const auto count = static_cast<long>(duration_s * kPlanRate_hz);
     for (long i = 0; i < count; ++i) {
@@ -85,16 +95,36 @@ struct HallOfLamps {
       Sightings seen;
       seen.stamp = image.stamp;
       seen.sightings = detect(detector, image, motion);
+      const auto is_of = [&](const Sighting& sighting, const Beacon& beacon) {
+        constexpr double kReach_px = 5;
+        return shines(beacon) && sighting.tones == beacon.tones &&
+               (sighting.pixel - place(t, beacon.position_map)).norm() < kReach_px;
+      };
+      const auto is_true = [&](const Sighting& sighting) {
+        return std::any_of(site.begin(), site.end(), [&](const Beacon& beacon) { return is_of(sighting, beacon); });
+      };
       for (const Sighting& sighting : seen.sightings) {
+        if (is_true(sighting)) continue;
         ++sightings;
         ++codes[sighting.tones];
       }
-      const auto named = [&](BeaconNamer& namer) {
-        namer.name(seen, beacons, {}, {}, *camera, RigidTransform::Identity(), std::nullopt);
-        return std::count_if(seen.sightings.begin(), seen.sightings.end(), [](const auto& s) { return s.beacon; });
+      alone.name(seen, every_code, {}, {}, *camera, RigidTransform::Identity(), std::nullopt);
+      for (const Sighting& sighting : seen.sightings) named_alone += sighting.beacon && !is_true(sighting);
+
+      const auto tell = [&](const std::optional<PoseEstimate>& pose, Names& names) {
+        as_shipped.name(seen, site, heard_at(speed_m_s * t, site), {}, *camera, RigidTransform::Identity(), pose);
+        for (const Sighting& sighting : seen.sightings) {
+          if (!sighting.beacon) continue;
+          const bool right = is_of(sighting, site[sighting.beacon->value - 1]);
+          (right ? names.right : names.wrong) += 1;
+        }
       };
-      named_alone += named(alone);
-      named_heard += named(heard);
+      tell(std::nullopt, heard);
+      PoseEstimate pose;
+      pose.T_map_base.translation().x() = speed_m_s * t;
+      pose.T_map_base.linear() = so3_exp({0, 0, yaw_rad(t)});
+      pose.covariance.diagonal() << 0.01, 0.01, 0.01, 1e-4, 1e-4, 1e-4;
+      tell(pose, located);
       if (i % 60 == 0) {
         for (const Light& light : scene.lights) lamps_in_view += camera->contains(light.pixel(t)) ? 60 : 0;
       }
@@ -103,6 +133,52 @@ struct HallOfLamps {
 
  private:
   using SeenFrom = std::function<Eigen::Vector2d(double, const Eigen::Vector3d&)>;
+
+  /// Pairs, none a multiple of the other.
+  static std::vector<ToneSet> planned_codes() {
+    std::vector<ToneSet> codes;
+    for (int a = 0; a < static_cast<int>(kPlanTones_hz.size()); ++a) {
+      for (int b = a + 1; b < static_cast<int>(kPlanTones_hz.size()); ++b) {
+        const double low_hz = kPlanTones_hz[static_cast<std::size_t>(a)];
+        const double high_hz = kPlanTones_hz[static_cast<std::size_t>(b)];
+        if (std::fmod(high_hz, low_hz) != 0) codes.push_back({a, b});
+      }
+    }
+    return codes;
+  }
+
+  static bool shines(const Beacon& beacon) { return beacon.id.value % 4 == 1; }
+
+  /// Two rows, beacons 4 m apart; a code returns after 46 m.
+  static std::vector<Beacon> hang_beacons(double length_m, const SeenFrom& seen_from, BlobScene& scene) {
+    Noise& random = scene.random();
+    const std::vector<ToneSet> codes = planned_codes();
+    std::vector<Beacon> beacons;
+    for (double x = -14; x < length_m + 14; x += 4) {
+      for (const double y : {-1.8, 1.8}) {
+        Beacon beacon;
+        beacon.id = BeaconId{static_cast<std::uint32_t>(beacons.size() + 1)};
+        beacon.position_map = {x, y, 6};
+        beacon.tones = codes[beacons.size() % codes.size()];
+        beacons.push_back(beacon);
+        if (!shines(beacon)) continue;
+        std::vector<double> tones_hz;
+        for (const int tone : beacon.tones.indices()) tones_hz.push_back(kPlanTones_hz[static_cast<std::size_t>(tone)]);
+        const Eigen::Vector3d place_map = beacon.position_map;
+        scene.lights.push_back({[=](double t) { return seen_from(t, place_map); },
+                                test::beacon(random, random.log_uniform(200, 1000), tones_hz, false)});
+      }
+    }
+    return beacons;
+  }
+
+  static std::vector<BeaconId> heard_at(double x, const std::vector<Beacon>& site) {
+    constexpr double kEarshot_m = 15;
+    std::vector<BeaconId> heard;
+    for (const Beacon& beacon : site)
+      if (std::abs(beacon.position_map.x() - x) < kEarshot_m) heard.push_back(beacon.id);
+    return heard;
+  }
 
   /// A site that uses every code of one to three tones, each once.
   static std::vector<Beacon> one_of_each_code() {

@@ -37,6 +37,7 @@ enum class FrameDrop {
   kSize,       ///< not the size of the calibration
   kDuplicate,  ///< the stamp of the frame before
   kBackwards,  ///< older than the frame before
+  kAhead,      ///< far ahead of the frame before, and no other frame has said so yet
   kCount
 };
 const char* name(FrameDrop reason);
@@ -71,6 +72,7 @@ class BeaconDetector {
 
  private:
   std::optional<FrameDrop> fault(const Image& image) const;
+  std::optional<FrameDrop> stamp_fault(Stamp stamp);
   bool breaks_window(const Image& image) const;
   PowerThresholds power_thresholds(const Image& image) const;
   bool image_moves() const;
@@ -87,8 +89,9 @@ class BeaconDetector {
   CodeReader reader_;
   std::shared_ptr<const CameraModel> camera_;
   ImageMotion motion_;
-  double lags_for_s_ = 0;  ///< frame period that the scan's lags were chosen for
-  int searches_left_ = 0;  ///< without a find, until the next frame
+  double lags_for_s_ = 0;         ///< frame period that the scan's lags were chosen for
+  int searches_left_ = 0;         ///< without a find, until the next frame
+  std::optional<Stamp> doubted_;  ///< of the frame that was dropped last, for being ahead
   DropCounts<FrameDrop> drops_;
 };
 

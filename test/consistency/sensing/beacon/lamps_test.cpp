@@ -15,14 +15,19 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HallOfLamps,
                            return name;
                          });
 
-TEST_P(HallOfLamps, HasNoBeacon) {
+TEST_P(HallOfLamps, HasNoBeaconButThoseThatShine) {
   for (const double speed_m_s : {0., 1., 5.}) {
     test::HallOfLamps hall;
     hall.lamps = GetParam();
     hall.speed_m_s = speed_m_s;
     hall.mains_hz = speed_m_s == 1 ? 60 : 50;
     hall.run(2.5, 1);
-    EXPECT_EQ(hall.named_alone, 0) << test::kAllLamps.at(hall.lamps) << " at " << speed_m_s << " m/s";
+    SCOPED_TRACE(testing::Message() << test::kAllLamps.at(hall.lamps) << " at " << speed_m_s << " m/s");
+    EXPECT_EQ(hall.nameable(), 0);
+    for (const auto& names : {hall.heard, hall.located}) {
+      EXPECT_EQ(names.wrong, 0);
+      EXPECT_GE(names.right, hall.frames) << "the line does name what shines";
+    }
   }
 }
 

@@ -319,8 +319,8 @@ TEST(BeaconDetector, DropsWhatItCannotUseByReason) {
 
   auto detector = detector_for(scene);
   const auto refuse = [&](Image image) { return detector.process(image, standing).error(); };
-  Image image = scene.render(1);
-  ASSERT_TRUE(detector.process(image, standing).ok());
+  Image image;
+  for (const double t : {0.96, 0.98, 1.0}) ASSERT_TRUE(detector.process(image = scene.render(t), standing).ok());
   EXPECT_EQ(refuse(image), FrameDrop::kDuplicate);
   EXPECT_EQ(refuse(scene.render(0.5)), FrameDrop::kBackwards);
   Image wrong = scene.render(2);
@@ -364,7 +364,31 @@ TEST(BeaconDetector, ALongPauseStartsTheWindowAnew) {
   scene.lights = {{at(60, 50), tones(250, {6})}};
   auto detector = detector_for(scene);
   EXPECT_EQ(run(scene, detector, 31, 60).sightings.size(), 1u);
-  EXPECT_TRUE(detector.process(scene.render(5), CameraMotion()).value().sightings.empty());
+  EXPECT_EQ(detector.process(scene.render(5), CameraMotion()).error(), FrameDrop::kAhead);
+  EXPECT_TRUE(detector.process(scene.render(5.02), CameraMotion()).value().sightings.empty());
+}
+
+TEST(BeaconDetector, OneWildStampCostsOneFrame) {
+  BlobScene scene;
+  scene.lights = {{at(60, 50), tones(250, {6})}};
+  auto detector = detector_for(scene);
+  auto see = [&, frame = 0](double stamp_error_s) mutable {
+    Image image = scene.render(frame++ / 60.0);
+    image.stamp += from_seconds(stamp_error_s);
+    const auto result = detector.process(image, CameraMotion());
+    return result ? result->sightings.size() : 0;
+  };
+  see(0.9);  // the very first is wild
+  for (int i = 0; i < 29; ++i) see(0);
+  EXPECT_EQ(see(0), 1u);
+  for (const double error_s : {0.2, 0.5, 0.9, 2.0, 100.0, 1e6, -0.2, -0.9, -1e3}) {
+    see(error_s);
+    EXPECT_EQ(see(0), 1u) << "the frame after a stamp that is off by " << error_s << " s";
+  }
+  // Time that goes on elsewhere is believed from the second frame on.
+  see(0.5);
+  see(0.5);
+  EXPECT_EQ(detector.drops()[FrameDrop::kAhead], 7u);
 }
 
 }  // namespace
