@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <ctime>
-#include <random>
 
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/sim/beacon_light.hpp"
@@ -200,39 +198,6 @@ TEST(CameraConsistency, SameSeedSameImage) {
   const auto same = [](const Image& x, const Image& y) { return std::equal(x.data, x.data + 640 * 480, y.data); };
   EXPECT_TRUE(same(ia, ib));
   EXPECT_FALSE(same(ia, ic));
-}
-
-TEST(CameraConsistency, AFrameIsCheap) {
-  Camera camera(camera_640(), 4);
-  Scene scene;
-  Random random(1, "test");
-  for (int i = 0; i < 20; ++i) {
-    LampParams lamp;
-    lamp.path_m = {{0.3 * i - 3, 0.1 * i, 4}};
-    scene.lights.push_back(std::make_shared<Lamp>(lamp, random));
-  }
-  // The fastest of many in turn, by this thread's own time: what else runs on the machine only makes them slower.
-  const auto cpu_ms = [](const auto& work) {
-    timespec begin{}, end{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
-    work();
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
-    return static_cast<double>(end.tv_sec - begin.tv_sec) * 1e3 +
-           static_cast<double>(end.tv_nsec - begin.tv_nsec) * 1e-6;
-  };
-  std::mt19937 engine(1);
-  std::normal_distribution<double> normal;
-  double sum = 0, frame_ms = 1e9, numbers_ms = 1e9;
-  for (int i = 0; i < 30; ++i) {
-    frame_ms = std::min(frame_ms, cpu_ms([&] { camera.expose(scene, test::at_origin, i * 0.02); }));
-    numbers_ms = std::min(numbers_ms, cpu_ms([&] {
-                            for (int k = 0; k < 640 * 480; ++k) sum += normal(engine);
-                          }));
-  }
-  EXPECT_NE(sum, 0);
-  RecordProperty("frame_ms", std::to_string(frame_ms));
-  EXPECT_LT(frame_ms, 5 * numbers_ms) << "the noise of each pixel drawn by the standard library takes some fifteen "
-                                         "frames' time in Release; the margin is for debug builds and sanitizers";
 }
 
 }  // namespace
