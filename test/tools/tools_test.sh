@@ -155,6 +155,7 @@ if [ -x "$bin/bridge_tail" ]; then  # WITH_WMS
     sleep 0.1
   done
   kill "$tail" || fail "bridge_tail ended by itself"
+  wait "$tail" || fail "bridge_tail did not end well"
   grep -q "not connected" out.txt || fail "bridge_tail does not say that it is not connected"
 fi
 echo "all tools do as they say"
