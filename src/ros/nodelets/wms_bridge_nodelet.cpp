@@ -36,8 +36,14 @@ bool synchronised() {
   return ros::Time::isSimTime() || (adjtimex(&state) >= 0 && (state.status & STA_UNSYNC) == 0);
 }
 
+/// Both clocks at one instant: what a busy computer puts between two readings looks like a clock that was set.
 ClockReading clocks() {
-  return {Stamp(std::chrono::system_clock::now().time_since_epoch()), since_boot(), synchronised()};
+  constexpr std::chrono::milliseconds kOneInstant(1);
+  for (;;) {
+    const Instant before = since_boot();
+    const Stamp wall(std::chrono::system_clock::now().time_since_epoch());
+    if (since_boot() - before < kOneInstant) return {wall, before, synchronised()};
+  }
 }
 
 }  // namespace
