@@ -304,7 +304,7 @@ TEST(Documents, Vda5050Examples) {
   truck.localized = true;
   truck.protection_level_m = 0.125;
   truck.driving = true;
-  truck.loads = {change(1).pallet};
+  truck.loads.emplace({change(1).pallet});
   truck.battery = Battery{0.75, 48.5, false};
   expect_example("vda5050_connection", messages.connection(VdaConnection::kOnline, test::at(0)).payload);
   expect_example("vda5050_state", messages.state(truck, test::at(1)).payload);
