@@ -249,8 +249,7 @@ void PalletTracker::set_down(const CarriedPallet& carried, Stamp stamp, const st
   pallet.coasting = at && at->coasting;
   const bool placed = at && put(pallet, pallet_on(at->fork, carried.seat), params_.zones, pallets());
   if (!placed) put_anywhere(pallet);
-  const Zone* zone = find_zone(params_.zones, pallet.zone);
-  pallet.state = zone != nullptr && zone->kind == ZoneKind::kDock          ? PalletState::kGone
+  pallet.state = lies_in_dock(pallet, params_.zones)                       ? PalletState::kGone
                  : !placed || last.pallet.state == PalletState::kUncertain ? PalletState::kUncertain
                                                                            : PalletState::kStanding;
   ledger_.write(PalletChangeKind::kDrop, pallet, stamp, last.candidates);
