@@ -129,6 +129,14 @@ json correction(const EpcisParams& params, const PalletChange& change) {
   return ended ? end_of_name(params, change) : observation(params, change);
 }
 
+bool ends_name(const json& event) { return event["bizStep"] == "decommissioning"; }
+
+/// Whether the correction may say another name for the pallet of this event. The end of a name is told of that name,
+/// and gives its own pallet no other.
+bool may_rename(const json& correction, const json& told) {
+  return !ends_name(told) && !(ends_name(correction) && told["lodestar:pallet"] == correction["lodestar:pallet"]);
+}
+
 void identify(json& event) { event["eventID"] = event_hash_id(event, kNamespaces); }
 
 /// What was told and holds yet: what a later document declared wrong is gone from it.
@@ -175,7 +183,8 @@ json moved(json event, const json& correction) {
 /// As certain as the correction is, of the place where that is the same, else of the name alone.
 void settle(const json& correction, bool stands, json& event) {
   if (stands) copy({"disposition", "lodestar:state"}, correction, event);
-  if (!stands && event.contains("lodestar:candidate") && !correction.contains("lodestar:candidate")) {
+  const bool answered = event.contains("lodestar:candidate") && !correction.contains("lodestar:candidate");
+  if (!stands && answered && event["disposition"] == "unknown") {
     const bool on_fork = event["bizStep"] == "transporting";
     event["disposition"] = on_fork ? "in_transit" : "in_progress";
     event["lodestar:state"] = name(on_fork ? PalletState::kOnFork : PalletState::kStanding);
@@ -201,9 +210,9 @@ struct Correction {
 };
 Correction correction_of(const std::vector<json>& told, const json& observed, Stamp now) {
   Correction out;
-  if (observed["lodestar:state"] == name(PalletState::kGone)) return out;
   const LastMove move = last_move(told);
   for (std::size_t i = 0; i < told.size(); ++i) {
+    if (!may_rename(observed, told[i])) continue;
     const bool stands = !move.lifted && i >= move.index && observed.contains("bizLocation");
     json right = renamed(told[i], observed);
     if (stands) right = moved(std::move(right), observed);
