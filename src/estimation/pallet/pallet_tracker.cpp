@@ -91,7 +91,11 @@ PalletTracker::Changes PalletTracker::add_load(const LoadSample& sample) {
 
 Result<PalletTracker::Changes, CorrectionFault> PalletTracker::correct(const PalletCorrection& correction) {
   if (const auto fault = lodestar::correct(ledger_, params_.zones, correction)) return *fault;
-  if (!correction.same_as.empty()) rename_carried(correction.id, correction.same_as);
+  const bool merged = !correction.same_as.empty();
+  if (merged) rename_carried(correction.id, correction.same_as);
+  const Pallet pallet = pallets().find(merged ? correction.same_as : correction.id)->pallet;
+  if (pallet.state == PalletState::kStanding)
+    doubt_in_the_way(pallet, correction.stamp, "another pallet was told to be where it stood");
   return ledger_.take();
 }
 

@@ -452,5 +452,31 @@ TEST(PalletTracker, takes_a_persons_word) {
   EXPECT_EQ(truck.pallet("id1").state, PalletState::kGone);
 }
 
+TEST(PalletTracker, where_a_person_says_that_one_stands_no_other_does) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(5, 0, PalletTruck::sscc(2));
+  PalletCorrection correction;
+  correction.stamp = truck.now;
+  correction.id = "id1";
+  correction.pose = pose_of(truck.pallet("id2"));
+  correction.gone = true;
+  ASSERT_TRUE(truck.tracker.correct(correction).ok());
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding) << "what is gone is in nobody's way";
+  correction.gone = false;
+  const auto changes = truck.tracker.correct(correction);
+  ASSERT_TRUE(changes.ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kUncertain);
+  ASSERT_EQ(changes->size(), 2u);
+  EXPECT_EQ(changes->at(1).reason, "another pallet was told to be where it stood");
+  PalletCorrection confirmed;
+  confirmed.stamp = truck.now;
+  confirmed.id = "id2";
+  ASSERT_TRUE(truck.tracker.correct(confirmed).ok());
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "not both of them";
+}
+
 }  // namespace
 }  // namespace lodestar
