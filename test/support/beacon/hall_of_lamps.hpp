@@ -134,14 +134,15 @@ struct HallOfLamps {
  private:
   using SeenFrom = std::function<Eigen::Vector2d(double, const Eigen::Vector3d&)>;
 
-  /// Pairs, none a multiple of the other.
+  /// Pairs, none a multiple of the other, nor its neighbour.
   static std::vector<ToneSet> planned_codes() {
     std::vector<ToneSet> codes;
     for (int a = 0; a < static_cast<int>(kPlanTones_hz.size()); ++a) {
       for (int b = a + 1; b < static_cast<int>(kPlanTones_hz.size()); ++b) {
         const double low_hz = kPlanTones_hz[static_cast<std::size_t>(a)];
         const double high_hz = kPlanTones_hz[static_cast<std::size_t>(b)];
-        if (std::fmod(high_hz, low_hz) != 0) codes.push_back({a, b});
+        const double apart_hz = 1.5 * kPlanRate_hz / plan_params().window_frames;
+        if (std::fmod(high_hz, low_hz) != 0 && high_hz - low_hz > apart_hz) codes.push_back({a, b});
       }
     }
     return codes;
