@@ -261,6 +261,7 @@ void PalletTracker::set_down(const CarriedPallet& carried, Stamp stamp, const st
 
 /// Two pallets are not in one place: the one that was told there before is in doubt.
 void PalletTracker::doubt_in_the_way(const Pallet& pallet, Stamp stamp, const std::string& reason) {
+  if (!has_place(pallet)) return;
   std::vector<std::string> others;
   for (const Pallet* other : pallets().in_the_way(pose_of(pallet), pallet.type))
     if (other->id != pallet.id) others.push_back(other->id);

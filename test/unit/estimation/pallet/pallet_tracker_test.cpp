@@ -478,5 +478,23 @@ TEST(PalletTracker, where_a_person_says_that_one_stands_no_other_does) {
   EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "not both of them";
 }
 
+TEST(PalletTracker, one_without_a_place_accuses_nobody) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(2));
+  truck.lift();
+  truck.has_pose = false;
+  truck.now += std::chrono::seconds(1);
+  truck.load(true);
+  truck.lower();
+  truck.has_pose = true;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  PalletCorrection confirmed;
+  confirmed.stamp = truck.now;
+  confirmed.id = "id1";
+  ASSERT_TRUE(truck.tracker.correct(confirmed).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding) << "somewhere";
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding) << "where the other was last";
+}
+
 }  // namespace
 }  // namespace lodestar
