@@ -150,12 +150,12 @@ struct HallOfLamps {
 
   static bool shines(const Beacon& beacon) { return beacon.id.value % 4 == 1; }
 
-  /// Two rows, beacons 4 m apart; a code returns after 46 m.
+  /// Two rows, beacons 5.5 m apart; a code returns after 44 m, farther than a camera sees and a receiver hears together.
   static std::vector<Beacon> hang_beacons(double length_m, const SeenFrom& seen_from, BlobScene& scene) {
     Noise& random = scene.random();
     const std::vector<ToneSet> codes = planned_codes();
     std::vector<Beacon> beacons;
-    for (double x = -14; x < length_m + 14; x += 4) {
+    for (double x = -14; x < length_m + 14; x += 5.5) {
       for (const double y : {-1.8, 1.8}) {
         Beacon beacon;
         beacon.id = BeaconId{static_cast<std::uint32_t>(beacons.size() + 1)};
