@@ -248,6 +248,12 @@ void report_motion() {
   motion.jitter = 0.2;
   motion.loss = 0.1;
   motion_line("standing, jitter 20 %, 10 % lost", motion, scaled(10000));
+  motion.square = true;
+  motion_line("standing, jitter 20 %, 10 % lost", motion, scaled(10000));
+  motion.speed = 3;
+  motion_line("3 px, jitter 20 %, 10 % lost", motion, scaled(10000));
+  motion.loss = 0;
+  motion_line("3 px, jitter 20 %", motion, scaled(10000));
 }
 
 void report_follow() {
