@@ -309,7 +309,7 @@ std::string spelled(const std::map<ToneSet, long>& codes) {
 void report_lamps() {
   std::printf(
       "\n## Lamps\n\nAisles, 60 frames/s, mains of 50 and 60 Hz in turn. Each lamp in view is a chance in each frame: "
-      "lamp-hours. Among the lamps hang beacons of a planned site, 4 m apart in two rows; all within 15 m are heard, "
+      "lamp-hours. Among the lamps hang beacons of a planned site, 5.5 m apart in two rows; all within 15 m are heard, "
       "one "
       "in four shines. Sightings: of no beacon. Nameable: in a code that plan_codes gives, two tones, none a multiple "
       "of "

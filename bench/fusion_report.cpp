@@ -9,6 +9,7 @@
 #include "lodestar/base/common/angle.hpp"
 #include "lodestar/evaluation/nees_band.hpp"
 #include "support/fault_drive.hpp"
+#include "support/fix_drive.hpp"
 #include "support/nees_scenarios.hpp"
 #include "support/recovery_drive.hpp"
 
@@ -19,7 +20,8 @@ constexpr char kUsage[] =
     "report_fusion nees [seeds, 50 [first, 1]] NEES and NIS of each scenario beside their 95 %% bands\n"
     "report_fusion integrity [drives, 10000] error against protection level in drives with a fault injected\n"
     "report_fusion densities [seeds, 10]     bearings (tight) beside fixes (loose) as beacons get fewer\n"
-    "report_fusion coasting [seeds, 20]      one beacon for 10 s, none for 5 s, kidnapped\n";
+    "report_fusion coasting [seeds, 20]      one beacon for 10 s, none for 5 s, kidnapped\n"
+    "report_fusion worst [drives, 100]       the worst of ten drives on fixes, and with wheels that never slip\n";
 
 void nees(int seeds, int first) {
   const NeesBand band3 = nees_band(seeds, 3), band6 = nees_band(seeds, 6);
@@ -167,6 +169,52 @@ void coasting(int seeds) {
       noticed, restarted, 1e3 * pulled);
 }
 
+/// What the drives of scripts/compare_filters have and no filter is told in advance.
+void take_off_slip_and_outliers(sim::Scenario& scenario) {
+  scenario.fixes->outlier_probability = 0;
+  scenario.odometry.slip_every_s = scenario.odometry.slip_per_m_s2 = 0;
+}
+
+/// Of those drives without slip all that is left is drawn from these figures, so that the filter is a Kalman filter of
+/// the true model.
+void tell_all(PoseFilterParams& params) {
+  params.odometry_correlation_s = 1e-3;  // white
+  params.vertical_velocity_sigma_m_s = 0.005;
+  params.level_sigma_rad = radians(0.15);
+  params.slip_s2 = params.sideslip_s2 = 0;
+  params.gyro_scale_sigma = params.gyro_axis_sigma_rad = 0;
+  params.gyro_bias_drift_rad_s_sqrt_s = params.accelerometer_bias_drift_m_s2_sqrt_s = params.scale_drift_sqrt_s = 0;
+}
+
+void worst(int drives) {
+  enum class Drives { kAsTheyAre, kNoSlip, kNoSlipAllTold };
+  const char* const names[] = {"as they are", "no slip, no outliers", "the same, all told"};
+  std::printf("%-16s %-21s %8s %6s %26s %14s\n", "drives", "", "rmse mm", "NEES/3", "worst of ten: mean, most mm",
+              "tens > 60 mm");
+  for (const char* name : {"fixes", "fixes_blackouts", "fixes_late"})
+    for (const Drives kind : {Drives::kAsTheyAre, Drives::kNoSlip, Drives::kNoSlipAllTold}) {
+      FixDriveErrors all;
+      double sum_m = 0, most_m = 0;
+      int tens = 0, beyond = 0;
+      for (int first = 1; first + 9 <= drives; first += 10, ++tens) {
+        all.worst_m = 0;
+        for (int seed = first; seed < first + 10; ++seed) {
+          sim::Scenario scenario = fix_scenario(name, static_cast<std::uint64_t>(seed));
+          PoseFilterParams params = fix_filter(scenario);
+          if (kind != Drives::kAsTheyAre) take_off_slip_and_outliers(scenario);
+          if (kind == Drives::kNoSlipAllTold) tell_all(params);
+          drive_on_fixes(scenario, params, all);
+        }
+        sum_m += all.worst_m;
+        most_m = std::max(most_m, all.worst_m);
+        beyond += all.worst_m > 0.06;
+      }
+      std::printf("%-16s %-21s %8.1f %6.2f %17.0f %8.0f %8d of %d\n", name, names[static_cast<int>(kind)],
+                  1e3 * all.rmse_m(), all.nees(), 1e3 * sum_m / tens, 1e3 * most_m, beyond, tens);
+      std::fflush(stdout);
+    }
+}
+
 }  // namespace
 }  // namespace lodestar::test
 
@@ -182,6 +230,8 @@ int main(int argc, char** argv) {
     lodestar::test::densities(number > 0 ? number : 10);
   else if (what == "coasting")
     lodestar::test::coasting(number > 0 ? number : 20);
+  else if (what == "worst")
+    lodestar::test::worst(number >= 10 ? number : 100);
   else
     return std::printf(lodestar::test::kUsage), 2;
   return 0;

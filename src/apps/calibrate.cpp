@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
+#include <regex>
 #include <string>
 #include <variant>
 #include <vector>
@@ -156,6 +157,9 @@ void print(const Views& found, const LensCalibration& lens, const Coverage& seen
 int calibrate(const po::variables_map& options) {
   const Board board = read_board(options);
   const auto name = options["name"].as<std::string>();
+  if (!std::regex_match(name, std::regex("[A-Za-z0-9_]+")))
+    throw UserError("--name: is '" + name +
+                    "', must be letters, digits and _ (camera_info_manager knows the camera by it).");
   const Views found = find_views(options, board);
   const auto lens = calibrate_lens(found.views, found.width_px, found.height_px);
   if (!lens) throw UserError(options["images"].as<std::string>() + ": " + lens.error() + ".");

@@ -181,8 +181,9 @@ int main(int argc, char** argv) {
       "bag", po::value<std::string>()->required(), "recording with images, camera_info and /odom")(
       "vehicle", po::value<std::string>(),
       "vehicle file (YAML); its mount is the first guess, else that of /tf_static")(
-      "floor-sigma-deg", po::value<double>()->default_value(0.3), "slope of the floor, one sigma")(
-      "mount-sigma-m", po::value<double>()->default_value(0.01), "of the camera's position in base_link, one sigma")(
-      "yaw-limit-deg", po::value<double>()->default_value(0.5), "of yaw's sigma: a warning above it");
+      "floor-sigma-deg", po::value<double>()->default_value(0.3, "0.3"), "slope of the floor, one sigma")(
+      "mount-sigma-m", po::value<double>()->default_value(0.01, "0.01"),
+      "of the camera's position in base_link, one sigma")(
+      "yaw-limit-deg", po::value<double>()->default_value(0.5, "0.5"), "of yaw's sigma: a warning above it");
   return lodestar::run_tool(argc, argv, lodestar::kUsage, options, lodestar::calibrate_mount_of);
 }

@@ -1,5 +1,6 @@
 #include "lodestar/calibration/board.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
@@ -115,6 +116,17 @@ BoardView refined(const cv::Mat& image, const Board& board, const BoardView& coa
   return view;
 }
 
+/// Such marks leave the board's turn about their line open.
+bool in_a_line(const BoardView& view) {
+  constexpr double kLeastWidth = 1e-3;  // of the length
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  for (const BoardPoint& point : view) centre_m += point.board_m / static_cast<double>(view.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const BoardPoint& point : view) scatter += (point.board_m - centre_m) * (point.board_m - centre_m).transpose();
+  const Eigen::Vector2d squares = scatter.selfadjointView<Eigen::Lower>().eigenvalues();
+  return squares[0] < kLeastWidth * kLeastWidth * squares[1];
+}
+
 }  // namespace
 
 std::string fault_of(const Board& board) {
@@ -136,7 +148,7 @@ std::optional<BoardView> find_board(const Image& image, const Board& board) {
                            : board.kind == Board::Kind::kCharuco  ? charuco(grey, board)
                                                                   : aprilgrid(grey, board);
   const BoardView view = refined(grey, board, coarse);
-  if (view.size() < kFewestPoints) return std::nullopt;
+  if (view.size() < kFewestPoints || in_a_line(view)) return std::nullopt;
   return view;
 }
 

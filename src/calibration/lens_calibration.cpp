@@ -73,12 +73,13 @@ std::optional<Trial> first_guess(const std::vector<BoardView>& views, int width_
 
 class Adjustment {
  public:
-  Adjustment(const std::vector<BoardView>& views, Trial& trial) : trial_(trial) {
+  /// @param doubtful_px residuals beyond it pull less and less; 0: all pull alike
+  Adjustment(const std::vector<BoardView>& views, Trial& trial, double doubtful_px = 0) : trial_(trial) {
+    ceres::LossFunction* const loss = doubtful_px > 0 ? new ceres::CauchyLoss(doubtful_px) : nullptr;
     for (std::size_t i = 0; i < views.size(); ++i) {
       for (const BoardPoint& point : views[i]) {
         using Cost = ceres::AutoDiffCostFunction<Reprojection, 2, 8, 6>;
-        problem_.AddResidualBlock(new Cost(new Reprojection{point}), nullptr, trial_.lens.data(),
-                                  trial_.places[i].data());
+        problem_.AddResidualBlock(new Cost(new Reprojection{point}), loss, trial_.lens.data(), trial_.places[i].data());
         ++points_;
       }
     }
@@ -130,23 +131,27 @@ Eigen::Vector2d residual_px(const Trial& trial, std::size_t view, const BoardPoi
   return residual;
 }
 
-/// Leaves out marks that are off by several times the median; how many.
-int drop_outliers(std::vector<BoardView>& views, const Trial& trial) {
-  constexpr double kMedians = 6;  // of normal errors' length: seven sigma
+double median_off_px(const std::vector<BoardView>& views, const Trial& trial) {
   std::vector<double> off_px;
   for (std::size_t i = 0; i < views.size(); ++i)
     for (const BoardPoint& point : views[i]) off_px.push_back(residual_px(trial, i, point).norm());
   const auto middle = off_px.begin() + static_cast<std::ptrdiff_t>(off_px.size() / 2);
   std::nth_element(off_px.begin(), middle, off_px.end());
-  const double limit_px = kMedians * *middle;
+  return *middle;
+}
 
-  std::size_t left = 0;
+/// Leaves out marks that are off by several times the median; how many.
+int drop_outliers(std::vector<BoardView>& views, const Trial& trial) {
+  constexpr double kMedians = 6;  // of normal errors' length: seven sigma
+  const double limit_px = kMedians * median_off_px(views, trial);
+  int dropped = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto is_off = [&](const BoardPoint& point) { return residual_px(trial, i, point).norm() > limit_px; };
-    views[i].erase(std::remove_if(views[i].begin(), views[i].end(), is_off), views[i].end());
-    left += views[i].size();
+    const auto kept = std::remove_if(views[i].begin(), views[i].end(), is_off);
+    dropped += static_cast<int>(views[i].end() - kept);
+    views[i].erase(kept, views[i].end());
   }
-  return static_cast<int>(off_px.size() - left);
+  return dropped;
 }
 
 void add_residuals(const std::vector<BoardView>& views, const Trial& trial, LensCalibration& calibration) {
@@ -171,6 +176,8 @@ Result<LensCalibration, std::string> calibrate_lens(std::vector<BoardView> views
   auto trial = best_start(views, width_px, height_px);
   if (!trial) return std::string("the board's place cannot be told from a view: its marks lie in a line");
   Adjustment(views, *trial).minimize(kIterations);
+  // In a view of few marks one that is far off would pull the board's place, and make outliers of all the others.
+  Adjustment(views, *trial, 2 * median_off_px(views, *trial)).minimize(kIterations);
   LensCalibration calibration;
   calibration.outliers = drop_outliers(views, *trial);
   Adjustment adjustment(views, *trial);

@@ -53,6 +53,16 @@ bool intermodulates(ToneSet code, const std::vector<double>& tones_hz) {
   return false;
 }
 
+/// Whether two of its tones lie next to one another in the bank: what glitters in passing, now more and now less, has
+/// such a pair (docs/math/detector.md, limits).
+bool has_neighbours(ToneSet code, const CodeBookParams& params, const std::vector<double>& tones_hz) {
+  const double apart_hz = 1.5 * params.rate_hz / params.window_frames;
+  const std::vector<int> own = code.indices();
+  return std::adjacent_find(own.begin(), own.end(), [&](int low, int high) {
+           return tones_hz[static_cast<std::size_t>(high)] - tones_hz[static_cast<std::size_t>(low)] < apart_hz;
+         }) != own.end();
+}
+
 /// One code among the candidate tones.
 struct Assessed {
   ToneSet code;
@@ -217,12 +227,16 @@ CodeBook make_code_book(const CodeBookParams& params, int wanted) {
     const Bench bench(params, tones_hz);
     std::vector<Assessed> codes;
     for (const int tones_per_code : params.tones_per_code) {
-      const std::vector<Assessed> more = bench.assess_all(tones_per_code);
-      codes.insert(codes.end(), more.begin(), more.end());
-      for (CodeBook book : {book_of(codes, tones_hz, robust_in), book_of(codes, tones_hz, usable_in)}) {
-        book.guard = guard;
-        if (book.codes.size() > largest.codes.size()) largest = book;
-        if (enough(book)) return book;
+      std::vector<Assessed> more = bench.assess_all(tones_per_code);
+      const auto close = std::stable_partition(
+          more.begin(), more.end(), [&](const Assessed& a) { return !has_neighbours(a.code, params, tones_hz); });
+      for (const auto& [first, last] : {std::pair(more.begin(), close), std::pair(close, more.end())}) {
+        codes.insert(codes.end(), first, last);
+        for (CodeBook book : {book_of(codes, tones_hz, robust_in), book_of(codes, tones_hz, usable_in)}) {
+          book.guard = guard;
+          if (book.codes.size() > largest.codes.size()) largest = book;
+          if (enough(book)) return book;
+        }
       }
     }
   }

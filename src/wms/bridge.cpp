@@ -20,7 +20,7 @@ Bridge::Bridge(const BridgeParams& params, MessageLink& link, const ClockReading
       topics_(site_topics(params.vda.manufacturer, params.vda.serial)),
       brokers_(params.brokers, params.back_off, params.silence),
       telemetry_(params.vda),
-      outbox_(params.outbox, "", 0, 0),
+      outbox_(params.outbox, "", {}),
       clock_(std::nullopt, params.clock_step) {
   open("");
   clock_ = ClockWatch(store_->clock_offset(), params_.clock_step);
@@ -33,7 +33,7 @@ void Bridge::open(const std::string& damage) {
   store_.reset();
   OpenedStore opened = open_store(params_.store, random_uuid(), damage);
   store_ = std::move(opened.store);
-  outbox_ = Outbox(params_.outbox, store_->stream(), store_->acknowledged(), store_->last());
+  outbox_ = Outbox(params_.outbox, store_->stream(), {store_->acknowledged(), store_->handed_over(), store_->last()});
   if (opened.set_aside.empty()) return;
   set_aside_ = opened.set_aside;
   store_fault_ = opened.damage;

@@ -26,6 +26,12 @@ bool valid_version(const std::string& text) {
   return text.size() <= 64 && std::regex_match(text, version);
 }
 
+/// By VDA 5050, 6.3.
+bool valid_serial(const std::string& text) {
+  static const std::regex serial("[A-Za-z0-9_.:-]{1,64}");
+  return std::regex_match(text, serial);
+}
+
 }  // namespace
 
 const char* name(BridgeDrop reason) {
@@ -51,11 +57,12 @@ Faults check(const BridgeParams& params, const std::string& file) {
   const auto fault = [&](const std::string& what) { faults.push_back({file, 0, what}); };
   const auto level = [&](const std::string& key, const std::string& value) {
     if (!valid_topic_level(value))
-      fault(key + ": is '" + value + "', must be 1 to 64 characters without / + # to stand in a topic");
+      fault(key + ": is '" + value + "', must be 1 to 64 characters without / + # $ to stand in a topic");
   };
   level("manufacturer", params.vda.manufacturer);
-  level("serial", params.vda.serial);
   level("vda_interface", params.vda.interface_name);
+  if (!valid_serial(params.vda.serial))
+    fault("serial: is '" + params.vda.serial + "', must be 1 to 64 of A-Z a-z 0-9 _ . : - to stand in a topic");
   if (!valid_version(params.vda.version))
     fault("vda_version: is '" + params.vda.version + "', must be numbers with dots between, such as 2.1.0");
   if (!valid_giai(params.epcis.giai))

@@ -48,24 +48,26 @@ json place(const EpcisParams& params, const Pallet& pallet) {
   return {{"id", valid_gln_extension(pallet.zone) ? place_uri(params.gln, pallet.zone) : place_uri(params.gln)}};
 }
 
-/// What all events of a change share.
+/// What all events of a change share. Key by key, as all that is made often: each pair of a list would be made into an
+/// array first.
 json event(const EpcisParams& params, const PalletChange& change, const char* type, const char* action) {
   const Pallet& pallet = change.pallet;
   const bool gone = pallet.state == PalletState::kGone, in_doubt = pallet.state == PalletState::kUncertain;
-  json out = {{"type", type},
-              {"action", action},
-              {"eventTime", iso_time(change.stamp)},
-              {"eventTimeZoneOffset", "+00:00"},
-              {"readPoint", place(params, pallet)},
-              {"lodestar:pallet", uuid_uri(pallet.id)},
-              {"lodestar:state", name(pallet.state)}};
+  json out;
+  out["type"] = type;
+  out["action"] = action;
+  out["eventTime"] = iso_time(change.stamp);
+  out["eventTimeZoneOffset"] = "+00:00";
+  out["readPoint"] = place(params, pallet);
+  out["lodestar:pallet"] = uuid_uri(pallet.id);
+  out["lodestar:state"] = name(pallet.state);
   if (change.kind == PalletChangeKind::kPick || pallet.state == PalletState::kOnFork) {
     out["bizStep"] = "transporting";
     out["disposition"] = in_doubt ? "unknown" : "in_transit";
   } else {
     out["bizStep"] = gone ? "departing" : "storing";
     out["disposition"] = gone ? "in_transit" : in_doubt ? "unknown" : "in_progress";
-    if (!gone) out["bizLocation"] = place(params, pallet);
+    if (!gone) out["bizLocation"] = out["readPoint"];
   }
   if (!pallet.type.empty()) out["lodestar:palletType"] = pallet.type;
   if (!pallet.zone.empty() && !valid_gln_extension(pallet.zone)) out["lodestar:zone"] = pallet.zone;
@@ -84,12 +86,14 @@ json association(const EpcisParams& params, const PalletChange& change, const ch
 
 json report(const EpcisParams& params, const char* type, const char* component, const char* unit, double value,
             double variance) {
-  return {{"type", type},
-          {"component", component},
-          {"value", rounded(value)},
-          {"sDev", rounded(std::sqrt(std::max(variance, 0.0)))},
-          {"uom", unit},
-          {"coordinateReferenceSystem", params.coordinate_reference_system}};
+  json out;
+  out["type"] = type;
+  out["component"] = component;
+  out["value"] = rounded(value);
+  out["sDev"] = rounded(std::sqrt(std::max(variance, 0.0)));
+  out["uom"] = unit;
+  out["coordinateReferenceSystem"] = params.coordinate_reference_system;
+  return out;
 }
 
 /// Metres and radians by their codes of UN/CEFACT recommendation 20.
@@ -127,6 +131,14 @@ json end_of_name(const EpcisParams& params, const PalletChange& change) {
 json correction(const EpcisParams& params, const PalletChange& change) {
   const bool ended = change.pallet.state == PalletState::kGone && change.pallet.sscc.empty();
   return ended ? end_of_name(params, change) : observation(params, change);
+}
+
+bool ends_name(const json& event) { return event["bizStep"] == "decommissioning"; }
+
+/// Whether the correction may say another name for the pallet of this event. The end of a name is told of that name,
+/// and gives its own pallet no other.
+bool may_rename(const json& correction, const json& told) {
+  return !ends_name(told) && !(ends_name(correction) && told["lodestar:pallet"] == correction["lodestar:pallet"]);
 }
 
 void identify(json& event) { event["eventID"] = event_hash_id(event, kNamespaces); }
@@ -175,7 +187,8 @@ json moved(json event, const json& correction) {
 /// As certain as the correction is, of the place where that is the same, else of the name alone.
 void settle(const json& correction, bool stands, json& event) {
   if (stands) copy({"disposition", "lodestar:state"}, correction, event);
-  if (!stands && event.contains("lodestar:candidate") && !correction.contains("lodestar:candidate")) {
+  const bool answered = event.contains("lodestar:candidate") && !correction.contains("lodestar:candidate");
+  if (!stands && answered && event["disposition"] == "unknown") {
     const bool on_fork = event["bizStep"] == "transporting";
     event["disposition"] = on_fork ? "in_transit" : "in_progress";
     event["lodestar:state"] = name(on_fork ? PalletState::kOnFork : PalletState::kStanding);
@@ -201,9 +214,9 @@ struct Correction {
 };
 Correction correction_of(const std::vector<json>& told, const json& observed, Stamp now) {
   Correction out;
-  if (observed["lodestar:state"] == name(PalletState::kGone)) return out;
   const LastMove move = last_move(told);
   for (std::size_t i = 0; i < told.size(); ++i) {
+    if (!may_rename(observed, told[i])) continue;
     const bool stands = !move.lifted && i >= move.index && observed.contains("bizLocation");
     json right = renamed(told[i], observed);
     if (stands) right = moved(std::move(right), observed);

@@ -208,6 +208,11 @@ void EventStore::load(const std::string& new_stream) {
   if (newest.executeStep()) last_heard_ = {unsigned_of(newest.getColumn(1)), newest.getColumn(2).getString()};
 }
 
+std::uint64_t EventStore::handed_over() const {
+  const auto newest = sql_->database.execAndGet("SELECT IFNULL(MAX(sequence), 0) FROM event WHERE frozen = 1");
+  return std::max(acknowledged_, unsigned_of(newest));
+}
+
 /// One transaction. @return false: no room, nothing was changed
 template <class Job>
 bool EventStore::run(Job job) {

@@ -36,8 +36,8 @@ class MqttLink::Connection : private mqtt::iaction_listener {
  public:
   Connection(const MqttParams& params, const std::string& broker, const MqttMessage& will)
       : broker_(broker), client_(broker, params.client_id) {
-    client_.set_connection_lost_handler(
-        [this](const std::string& cause) { put(LinkDown{"lost: " + broker_ + ": " + cause}); });
+    // Paho never says the cause.
+    client_.set_connection_lost_handler([this](const std::string&) { put(LinkDown{"lost: " + broker_}); });
     client_.set_message_callback([this](mqtt::const_message_ptr message) {
       put(MqttMessage{message->get_topic(), message->get_payload_str(), message->get_qos(), message->is_retained()});
     });

@@ -26,12 +26,13 @@ const char* name(AckDrop reason) {
   return "";
 }
 
-Outbox::Outbox(const OutboxParams& params, std::string stream, std::uint64_t acknowledged, std::uint64_t last)
+Outbox::Outbox(const OutboxParams& params, std::string stream, const StreamProgress& start)
     : params_(params),
       stream_(std::move(stream)),
-      acknowledged_(acknowledged),
-      last_(last),
-      next_(acknowledged + 1),
+      acknowledged_(start.acknowledged),
+      sent_(start.sent),
+      last_(start.recorded),
+      next_(start.acknowledged + 1),
       patience_(params.resend_after) {}
 
 void Outbox::connected(Instant now) {
@@ -55,6 +56,7 @@ void Outbox::sent(const Batch& batch, Instant now) {
   if (batch.count == 0) return;
   if (on_their_way() == 0) progress_ = now;
   next_ = batch.first + batch.count;
+  sent_ = std::max(sent_, next_ - 1);
   if (!unanswered_since_) unanswered_since_ = now;
 }
 
@@ -62,7 +64,7 @@ bool Outbox::take(const std::string& message, bool retained, Instant now) {
   const auto ack = acknowledgement_from(message);
   if (!ack) return drop(AckDrop::kMalformed);
   if (ack->stream != stream_) return drop(AckDrop::kOtherStream);
-  if (ack->sequence > last_) return drop(AckDrop::kAhead);
+  if (ack->sequence > sent_) return drop(AckDrop::kAhead);
   if (ack->sequence <= acknowledged_) {
     if (!retained) complain(ack->sequence, now);
     return drop(ack->sequence == acknowledged_ ? AckDrop::kRepeated : AckDrop::kLate);

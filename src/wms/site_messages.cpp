@@ -45,7 +45,7 @@ SiteTopics site_topics(const std::string& manufacturer, const std::string& seria
 
 bool valid_topic_level(const std::string& text) {
   const auto bad = [](char c) {
-    return c == '/' || c == '+' || c == '#' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    return c == '/' || c == '+' || c == '#' || c == '$' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   };
   return !text.empty() && text.size() <= 64 && std::none_of(text.begin(), text.end(), bad) && is_utf8(text);
 }

@@ -14,6 +14,11 @@ bool due_again(const std::optional<Instant>& sent, Instant now, double period_s)
   return !sent || now - *sent >= from_seconds(period_s);
 }
 
+bool same_loads(const std::optional<std::vector<Pallet>>& a, const std::optional<std::vector<Pallet>>& b) {
+  const auto same = [](const Pallet& p, const Pallet& q) { return p.id == q.id && p.sscc == q.sscc; };
+  return a.has_value() == b.has_value() && (!a || std::equal(a->begin(), a->end(), b->begin(), b->end(), same));
+}
+
 }  // namespace
 
 void Telemetry::take_pose(const PoseEstimate& pose, Instant now) {
@@ -36,9 +41,8 @@ void Telemetry::take_integrity(bool trusted, double protection_level_m) {
   truck_.protection_level_m = protection_level_m;
 }
 
-void Telemetry::take_loads(std::vector<Pallet> on_fork) {
-  const auto same = [](const Pallet& a, const Pallet& b) { return a.id == b.id && a.sscc == b.sscc; };
-  changed_ |= !std::equal(on_fork.begin(), on_fork.end(), truck_.loads.begin(), truck_.loads.end(), same);
+void Telemetry::take_loads(std::optional<std::vector<Pallet>> on_fork) {
+  changed_ |= !same_loads(on_fork, truck_.loads);
   truck_.loads = std::move(on_fork);
 }
 
@@ -53,11 +57,16 @@ void Telemetry::set_outbox_full(bool full) {
   truck_.outbox_full = full;
 }
 
-/// A pose that nobody renews is not trusted, whatever was said of it; a charge is then not known.
+/// A pose that nobody renews is not trusted, whatever was said of it, and tells no motion; a charge is then not known.
 void Telemetry::refresh(Instant now) {
-  const bool localized = trusted_ && truck_.pose && now - pose_heard_ < kPoseStale;
+  const bool renewed = truck_.pose && now - pose_heard_ < kPoseStale, localized = trusted_ && renewed;
   changed_ |= localized != truck_.localized;
   truck_.localized = localized;
+  if (!renewed) {
+    changed_ |= truck_.driving.has_value();
+    truck_.driving.reset();
+    moved_from_.reset();
+  }
   if (now - battery_heard_ >= kBatteryStale) truck_.battery.reset();
 }
 

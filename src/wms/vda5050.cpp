@@ -53,6 +53,12 @@ json load(const Pallet& pallet) {
           {"loadPosition", "fork"}};
 }
 
+json loads(const std::vector<Pallet>& on_fork) {
+  json out = json::array();
+  for (const Pallet& pallet : on_fork) out.push_back(load(pallet));
+  return out;
+}
+
 json error(const char* type, const char* description) {
   return {{"errorType", type}, {"errorDescription", description}, {"errorLevel", "WARNING"}};
 }
@@ -100,15 +106,15 @@ MqttMessage Vda5050::state(const TruckState& truck, Stamp now) {
                   {"nodeStates", json::array()},
                   {"edgeStates", json::array()},
                   {"actionStates", json::array()},
-                  {"driving", truck.driving},
+                  {"driving", truck.driving.value_or(false)},
                   {"operatingMode", "MANUAL"},
                   {"batteryState", battery(truck.battery)},
                   {"safetyState", {{"eStop", "NONE"}, {"fieldViolation", false}}},
                   {"errors", errors(truck)},
-                  {"loads", json::array()},
                   {"information", json::array({filling("safetyState")})}});
   if (!truck.battery) message["information"].push_back(filling("batteryState"));
-  for (const Pallet& pallet : truck.loads) message["loads"].push_back(load(pallet));
+  if (!truck.driving) message["information"].push_back(filling("driving"));
+  if (truck.loads) message["loads"] = loads(*truck.loads);
   if (truck.pose) message["agvPosition"] = position(params_, truck);
   return {topic("state"), text_of(message), 0, false};
 }

@@ -358,6 +358,14 @@ TEST_F(PalletTracking, CountsBadInputAndGoesOn) {
   EXPECT_EQ(event(4).pallet.state, PalletEntry::UNCERTAIN);
   EXPECT_TRUE(dropped(name(PalletDrop::kNoPose), 2));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.level(kNode) >= 1; }));
+  EXPECT_TRUE(counted("pallets without a place", 1));
+  FindPallets::Request find;
+  find.id = event(4).pallet.id;
+  EXPECT_EQ(call<FindPallets>("/pallets/find", find).pallets.size(), 1u);
+  find.area.points.resize(3);
+  find.area.points[0].x = find.area.points[0].y = find.area.points[1].y = find.area.points[2].x = -100;
+  find.area.points[1].x = find.area.points[2].y = 200;
+  EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty()) << "nobody knows where it is";
 
   // The clock goes back: pallets stay.
   now_ -= ros::Duration(500);

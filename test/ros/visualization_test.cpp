@@ -113,6 +113,8 @@ TEST(Visualization, DrawsPalletsWithIdsAndAges) {
   add("aaaaaaaa-1", "106141412345678908", PalletEntry::STANDING, 3);
   add("bbbbbbbb-2", "", PalletEntry::UNCERTAIN, 5);
   add("cccccccc-3", "", PalletEntry::GONE, 7);
+  add("dddddddd-4", "", PalletEntry::UNCERTAIN, 9);
+  for (const std::size_t i : {0, 7, 14, 21, 28, 35}) pallets.pallets.back().pose.covariance[i] = 1e6;
   state.publish(pallets);
   ASSERT_TRUE(wait_for([&] { return !markers.empty() && added(markers.last(), "pallets") == 2; }));
   EXPECT_EQ(added(markers.last(), "goods"), 2);
@@ -122,6 +124,7 @@ TEST(Visualization, DrawsPalletsWithIdsAndAges) {
   const auto* unread = named(markers.last(), "pallet ids", "bbbbbb ?\n2 min");
   ASSERT_NE(unread, nullptr);
   EXPECT_EQ(unread->pose.position.x, 5);
+  EXPECT_EQ(named(markers.last(), "pallet ids", "dddddd"), nullptr) << "nobody knows where it is";
   for (const auto& marker : markers.last().markers) {
     if (marker.ns != "pallets") continue;
     EXPECT_EQ(marker.scale.x, 1.2);

@@ -375,7 +375,7 @@ TEST_F(WmsBridge, SaysWhatIsWrongWithItsStore) {
     vda_->publish({site_topics("lodestar", "truck7").ack, message_text(Acknowledgement{stream, 1000}), 1, false});
     return diagnostics_.count(kNode, std::string("dropped: ") + name(AckDrop::kAhead)) > 0;
   }));
-  EXPECT_TRUE(says("the site has events that this store never had"));
+  EXPECT_TRUE(says("the site acknowledged events that were never sent"));
 
   ASSERT_TRUE(until([&] { return events_.getNumSubscribers() > 0; }));
   broker_->kill();

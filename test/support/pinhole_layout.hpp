@@ -80,11 +80,12 @@ inline Seen see(Random& random, const Layout& layout, double sigma_px, double ti
   return seen;
 }
 
-/// Error of x, y, z (m) and yaw (rad).
+/// Error of x, y, z (m) and of the turn about the vertical (rad), of which the covariance and the bound speak. The
+/// difference of two Euler yaws is another angle where tilt is wrong too.
 inline Eigen::Vector4d error_of(const RigidTransform& T_map_camera, const Layout& layout) {
   Eigen::Vector4d error;
   error << T_map_camera.translation() - layout.T_map_camera.translation(),
-      wrap_angle(roll_pitch_yaw(T_map_camera.linear()).yaw_rad - roll_pitch_yaw(layout.T_map_camera.linear()).yaw_rad);
+      so3_log(T_map_camera.linear() * layout.T_map_camera.linear().transpose()).z();
   return error;
 }
 

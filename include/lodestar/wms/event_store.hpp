@@ -80,6 +80,7 @@ class EventStore {
   const std::string& stream() const { return stream_; }
   std::uint64_t last() const { return last_; }                  ///< sequence number of the newest event; 0: none
   std::uint64_t acknowledged() const { return acknowledged_; }  ///< the site has all up to here
+  std::uint64_t handed_over() const;                            ///< the newest number that documents() ever gave
   const HeardEvent& last_heard() const { return last_heard_; }  ///< the newest event
   bool full() const { return full_; }                           ///< new events find no room
 

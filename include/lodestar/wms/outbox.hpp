@@ -23,10 +23,17 @@ enum class AckDrop {
   kOtherStream,  ///< of another store, such as one that was set aside
   kRepeated,     ///< the number that was acknowledged last
   kLate,         ///< a smaller one
-  kAhead,        ///< a number that was never given
+  kAhead,        ///< a number that was never sent
   kCount
 };
 const char* name(AckDrop reason);
+
+/// How far one stream is, each number at most as large as the next.
+struct StreamProgress {
+  std::uint64_t acknowledged = 0;  ///< by the site
+  std::uint64_t sent = 0;          ///< ever, also by a bridge before this one
+  std::uint64_t recorded = 0;
+};
 
 /// Documents from `first` on, `count` of them.
 struct Batch {
@@ -39,7 +46,7 @@ struct Batch {
 /// first number that is not acknowledged; the site drops what it knows. Holds no document and reads no clock.
 class Outbox {
  public:
-  Outbox(const OutboxParams& params, std::string stream, std::uint64_t acknowledged, std::uint64_t last);
+  Outbox(const OutboxParams& params, std::string stream, const StreamProgress& start);
 
   void recorded(std::uint64_t last) { last_ = last; }
   void connected(Instant now);
@@ -70,7 +77,7 @@ class Outbox {
 
   OutboxParams params_;
   std::string stream_;
-  std::uint64_t acknowledged_, last_;
+  std::uint64_t acknowledged_, sent_, last_;
   std::uint64_t next_;  ///< to be sent
   bool connected_ = false;
   Instant progress_;  ///< when something last moved

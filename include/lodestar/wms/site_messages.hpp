@@ -15,7 +15,7 @@ struct SiteTopics {
 SiteTopics site_topics(const std::string& manufacturer, const std::string& serial);
 
 /// A name that can stand as one level of a topic: 1 to 64 octets of UTF-8 (MQTT 3.1.1, 1.5.3), none of them a slash, a
-/// wildcard or a control.
+/// wildcard, a dollar (VDA 5050, 6.3) or a control.
 bool valid_topic_level(const std::string& text);
 
 /// The site has every document of the stream up to and with this number, safe on its own disk.

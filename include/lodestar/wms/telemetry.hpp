@@ -17,7 +17,8 @@ class Telemetry {
   void take_pose(const PoseEstimate& pose, Instant now);
   /// @param trusted the pose may be used for what it is
   void take_integrity(bool trusted, double protection_level_m);
-  void take_loads(std::vector<Pallet> on_fork);
+  /// @param on_fork empty: nobody knows
+  void take_loads(std::optional<std::vector<Pallet>> on_fork);
   void take_battery(const Battery& battery, Instant now);
   void set_outbox_full(bool full);
 

@@ -35,10 +35,10 @@ struct VdaParams {
 /// The truck as its messages tell it.
 struct TruckState {
   std::optional<PoseEstimate> pose;
-  bool localized = false;         ///< the pose is trusted
-  double protection_level_m = 0;  ///< of the pose; told while it is trusted
-  bool driving = false;
-  std::vector<Pallet> loads;  ///< on the fork
+  bool localized = false;                    ///< the pose is trusted
+  double protection_level_m = 0;             ///< of the pose; told while it is trusted
+  std::optional<bool> driving;               ///< or turning; empty: not known
+  std::optional<std::vector<Pallet>> loads;  ///< on the fork; empty: not known
   bool outbox_full = false;
   std::optional<Battery> battery;  ///< empty: not known
 };
@@ -47,8 +47,9 @@ enum class VdaConnection { kOnline, kOffline, kBroken };
 
 /// The messages of VDA 5050 (interface for AGV communication, 2.1.0, section 6) that a truck with a driver can send: it
 /// takes no orders, so order, nodes and edges are empty and operatingMode is MANUAL. Emergency stop and protective
-/// fields belong to the truck's safety controller, which nothing here speaks to; they and a battery that is not known
-/// are fillings that the schema requires, and `information` says so.
+/// fields belong to the truck's safety controller, which nothing here speaks to; they, and a battery or a motion that
+/// is not known, are fillings that the schema requires, and `information` says so. Loads that are not known are left
+/// out.
 class Vda5050 {
  public:
   explicit Vda5050(const VdaParams& params) : params_(params) {}

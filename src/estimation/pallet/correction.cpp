@@ -28,6 +28,12 @@ std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrec
   return std::nullopt;
 }
 
+/// Of a pallet that is told about without a place.
+PalletState state_of(const PalletMap& map, const std::string& id) {
+  if (map.carries(id)) return PalletState::kOnFork;
+  return map.find(id)->pallet.state == PalletState::kGone ? PalletState::kGone : PalletState::kStanding;
+}
+
 }  // namespace
 
 const char* name(CorrectionFault fault) {
@@ -53,9 +59,9 @@ const char* name(CorrectionFault fault) {
 std::optional<CorrectionFault> correct(PalletLedger& ledger, const std::vector<Zone>& zones,
                                        const PalletCorrection& correction) {
   if (const auto fault = fault_of(ledger.map(), correction)) return fault;
-  const PalletState here = ledger.map().carries(correction.id) ? PalletState::kOnFork : PalletState::kStanding;
+  PalletState state = state_of(ledger.map(), correction.id);
   const bool merged = !correction.same_as.empty();
-  if (merged) ledger.merge(correction.id, correction.same_as, here, correction.stamp, correction.reason);
+  if (merged) ledger.merge(correction.id, correction.same_as, state, correction.stamp, correction.reason);
   const std::string& id = merged ? correction.same_as : correction.id;
 
   const bool more = !correction.sscc.empty() || !correction.type.empty() || correction.gone || correction.pose;
@@ -66,9 +72,9 @@ std::optional<CorrectionFault> correct(PalletLedger& ledger, const std::vector<Z
   if (correction.pose) {
     pallet.coasting = false;
     put(pallet, *correction.pose, zones, ledger.map());
+    state = lies_in_dock(pallet, zones) ? PalletState::kGone : PalletState::kStanding;
   }
-  const bool gone = correction.gone || (pallet.state == PalletState::kGone && !correction.pose);
-  ledger.settle(pallet, gone ? PalletState::kGone : here, correction.stamp, correction.reason);
+  ledger.settle(pallet, correction.gone ? PalletState::kGone : state, correction.stamp, correction.reason);
   return std::nullopt;
 }
 

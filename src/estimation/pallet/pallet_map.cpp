@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSameHeight_m = 0.1;  // less than the height of an empty pallet (EPAL: 0.144)
 constexpr double kOverlap_m = 0.15;    // loads jut out, pallets lean: on each side, before two cannot both be there
-constexpr double kPlaceless_m = 1.0;   // one sigma: such a pallet may be anywhere
+constexpr double kPlaceless_m = 1.0;   // one sigma, from which on a pallet has no place
 constexpr double kThinnest_m = 0.01;   // of a footprint that still says something
 
 double horizontal_sigma_m(const Matrix6& covariance) { return std::sqrt(std::max(covariance(0, 0), covariance(1, 1))); }
@@ -17,10 +17,12 @@ Eigen::Vector2d middle(const RigidTransform& T_map_pallet) { return T_map_pallet
 
 bool is_here(const Pallet& pallet) {
   const bool standing = pallet.state == PalletState::kStanding || pallet.state == PalletState::kUncertain;
-  return standing && horizontal_sigma_m(pallet.covariance) < kPlaceless_m;
+  return standing && has_place(pallet);
 }
 
 }  // namespace
+
+bool has_place(const Pallet& pallet) { return horizontal_sigma_m(pallet.covariance) < kPlaceless_m; }
 
 const PalletChange* PalletMap::find(const std::string& id) const {
   const auto found = latest_.find(id);

@@ -91,7 +91,11 @@ PalletTracker::Changes PalletTracker::add_load(const LoadSample& sample) {
 
 Result<PalletTracker::Changes, CorrectionFault> PalletTracker::correct(const PalletCorrection& correction) {
   if (const auto fault = lodestar::correct(ledger_, params_.zones, correction)) return *fault;
-  if (!correction.same_as.empty()) rename_carried(correction.id, correction.same_as);
+  const bool merged = !correction.same_as.empty();
+  if (merged) rename_carried(correction.id, correction.same_as);
+  const Pallet pallet = pallets().find(merged ? correction.same_as : correction.id)->pallet;
+  if (pallet.state == PalletState::kStanding)
+    doubt_in_the_way(pallet, correction.stamp, "another pallet was told to be where it stood");
   return ledger_.take();
 }
 
@@ -249,8 +253,7 @@ void PalletTracker::set_down(const CarriedPallet& carried, Stamp stamp, const st
   pallet.coasting = at && at->coasting;
   const bool placed = at && put(pallet, pallet_on(at->fork, carried.seat), params_.zones, pallets());
   if (!placed) put_anywhere(pallet);
-  const Zone* zone = find_zone(params_.zones, pallet.zone);
-  pallet.state = zone != nullptr && zone->kind == ZoneKind::kDock          ? PalletState::kGone
+  pallet.state = lies_in_dock(pallet, params_.zones)                       ? PalletState::kGone
                  : !placed || last.pallet.state == PalletState::kUncertain ? PalletState::kUncertain
                                                                            : PalletState::kStanding;
   ledger_.write(PalletChangeKind::kDrop, pallet, stamp, last.candidates);
@@ -258,6 +261,7 @@ void PalletTracker::set_down(const CarriedPallet& carried, Stamp stamp, const st
 
 /// Two pallets are not in one place: the one that was told there before is in doubt.
 void PalletTracker::doubt_in_the_way(const Pallet& pallet, Stamp stamp, const std::string& reason) {
+  if (!has_place(pallet)) return;
   std::vector<std::string> others;
   for (const Pallet* other : pallets().in_the_way(pose_of(pallet), pallet.type))
     if (other->id != pallet.id) others.push_back(other->id);

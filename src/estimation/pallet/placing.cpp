@@ -32,6 +32,11 @@ bool put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones,
   return true;
 }
 
+bool lies_in_dock(const Pallet& pallet, const std::vector<Zone>& zones) {
+  const Zone* zone = find_zone(zones, pallet.zone);
+  return zone != nullptr && zone->kind == ZoneKind::kDock;
+}
+
 void put_anywhere(Pallet& pallet) {
   pallet.covariance = kUnknownSigma * kUnknownSigma * Matrix6::Identity();
   pallet.zone.clear();

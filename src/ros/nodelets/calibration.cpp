@@ -31,7 +31,7 @@ sensor_msgs::CameraInfoPtr Calibration::info(const sensor_msgs::Image& image,
   return info;
 }
 
-std::string Calibration::fault() {
+std::optional<std::string> Calibration::fault() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return fault_;
 }

@@ -138,9 +138,9 @@ void CameraCaptureNodelet::report(Health::Status& status) {
   if (now.state == CaptureState::kOver) status.mergeSummary(DiagnosticStatus::WARN, now.fault);
   if (now.state != CaptureState::kOver && now.state != CaptureState::kRunning)
     status.mergeSummary(DiagnosticStatus::ERROR, "camera lost: " + now.fault);
-  const std::string uncalibrated = calibration_ ? calibration_->fault() : "";
-  status.add("calibration", uncalibrated.empty() ? "in force" : uncalibrated);
-  if (!uncalibrated.empty()) status.mergeSummary(DiagnosticStatus::WARN, uncalibrated);
+  const auto uncalibrated = calibration_ ? calibration_->fault() : std::nullopt;
+  status.add("calibration", !uncalibrated ? "no image yet" : uncalibrated->empty() ? "in force" : *uncalibrated);
+  if (uncalibrated && !uncalibrated->empty()) status.mergeSummary(DiagnosticStatus::WARN, *uncalibrated);
 }
 
 }  // namespace lodestar

@@ -31,6 +31,9 @@ void IrReceiverNodelet::onInit() {
   const std::string device = device_of(reader, reader.text("source", ""));
   BoardLinkParams params;
   const int baud = reader.integer("baud", 115200, {1200, 4000000});
+  if (!SerialLine::is_baud_rate(static_cast<unsigned>(baud)))
+    reader.add(
+        {{"baud", 0, "is " + std::to_string(baud) + ", must be one of 1200, 2400, 4800 .. 115200, 230400 .. 4000000"}});
   params.baud = baud;
   params.full_scale_counts = reader.number("full_scale_counts", params.full_scale_counts, {1, 65535});
   params.most_frames_hz = reader.number("most_frames_hz", params.most_frames_hz, {1, 1000});
@@ -45,7 +48,16 @@ void IrReceiverNodelet::onInit() {
   line_ = std::make_unique<SerialLine>(
       device, static_cast<unsigned>(baud), [this](const std::uint8_t* bytes, std::size_t count) { take(bytes, count); },
       [this] { link_->cut(); });
-  poll_ = nh.createWallTimer(ros::WallDuration(kPoll_s), [this](const ros::WallTimerEvent&) { line_->poll(); });
+  poll_ = nh.createWallTimer(ros::WallDuration(kPoll_s), [this](const ros::WallTimerEvent&) { poll(); });
+}
+
+void IrReceiverNodelet::poll() {
+  line_->poll();
+  const bool was_open = told_fault_.empty(), is_open = line_->fault().empty();
+  if (was_open && !is_open)
+    ROS_ERROR_STREAM("receiver board lost: " << line_->fault() << "; trying again until it is there");
+  if (!was_open && is_open) ROS_INFO_STREAM("receiver board is there");
+  told_fault_ = line_->fault();
 }
 
 void IrReceiverNodelet::take(const std::uint8_t* bytes, std::size_t count) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lodestar/estimation/pallet/pallet_map.hpp"
 #include "lodestar/ros/convert/pallet.hpp"
 #include "lodestar/ros/convert/stamp.hpp"
 #include "lodestar/ros/convert/transform.hpp"
@@ -72,7 +73,7 @@ void add_pallets(const std_msgs::Header& header, const PalletArray& state, const
   std::vector<Pallet> here;
   for (const PalletEntry& entry : state.pallets) {
     const auto pallet = pallet_from(entry);
-    if (!pallet || pallet->state == PalletState::kGone) continue;
+    if (!pallet || pallet->state == PalletState::kGone || !has_place(*pallet)) continue;
     const auto size =
         std::find_if(sizes.begin(), sizes.end(), [&](const PalletSize& s) { return s.type == pallet->type; });
     add_pallet(header, *pallet, (size == sizes.end() ? sizes.front() : *size).size_m, out);

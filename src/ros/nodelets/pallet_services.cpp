@@ -111,7 +111,8 @@ bool PalletServices::find(FindPallets::Request& request, FindPallets::Response& 
     return true;
   }
   for (const Pallet& pallet : tracker_.now()) {
-    const bool inside = area.empty() || contains(area, pallet.T_map_pallet.translation().head<2>());
+    const bool inside =
+        area.empty() || (has_place(pallet) && contains(area, pallet.T_map_pallet.translation().head<2>()));
     if (inside && matches(pallet, request, site_.zones)) response.pallets.push_back(pallet_message(pallet));
   }
   return true;

@@ -109,13 +109,15 @@ void PalletTrackingNodelet::tell_state() {
 void PalletTrackingNodelet::report(Health::Status& status) {
   using diagnostic_msgs::DiagnosticStatus;
   const PalletMap& pallets = tracker_->pallets();
-  int standing = 0, uncertain = 0;
+  int standing = 0, uncertain = 0, placeless = 0;
   for (const auto& [id, change] : pallets.all()) {
     standing += change.pallet.state == PalletState::kStanding ? 1 : 0;
     uncertain += change.pallet.state == PalletState::kUncertain ? 1 : 0;
+    placeless += change.pallet.state != PalletState::kGone && !has_place(change.pallet) ? 1 : 0;
   }
   status.add("pallets standing", standing);
   status.add("pallets in doubt", uncertain);
+  status.add("pallets without a place", placeless);
   status.add("pallets on the fork", tracker_->carried().size());
   status.add("last event", tracker_->ledger().last());
   report_drops(tracker_->drops(), status);

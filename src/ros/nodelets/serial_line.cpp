@@ -1,5 +1,7 @@
 #include "lodestar/ros/nodelets/serial_line.hpp"
 
+#include <termios.h>
+
 #include <boost/asio/buffer.hpp>
 
 namespace lodestar {
@@ -15,6 +17,13 @@ constexpr int kMostCalls = 8;  // of one poll
 SerialLine::SerialLine(std::string device, unsigned baud, OnBytes on_bytes, std::function<void()> on_cut)
     : device_(std::move(device)), baud_(baud), on_bytes_(std::move(on_bytes)), on_cut_(std::move(on_cut)) {
   open();
+}
+
+bool SerialLine::is_baud_rate(unsigned baud) {
+  termios settings{};
+  error_code error;
+  asio::serial_port::baud_rate(baud).store(settings, error);
+  return !error;
 }
 
 void SerialLine::poll() {

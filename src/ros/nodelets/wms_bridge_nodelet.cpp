@@ -86,6 +86,7 @@ void WmsBridgeNodelet::poll() {
   bridge_->poll(clocks());
   follow_store();
   if (events_.getNumPublishers() == 0) intake_.lose_sight();
+  if (state_.getNumPublishers() == 0) bridge_->telemetry().take_loads(std::nullopt);
   catch_up();
 }
 
@@ -214,7 +215,8 @@ void WmsBridgeNodelet::report_trouble(Health::Status& status) {
   if (bridge.in_memory() > 0)
     status.mergeSummary(DiagnosticStatus::ERROR, "the store takes no events: they wait in memory");
   if (bridge.outbox().drops()[AckDrop::kAhead] > 0)
-    status.mergeSummary(DiagnosticStatus::ERROR, "the site has events that this store never had: is it an old copy?");
+    status.mergeSummary(DiagnosticStatus::ERROR,
+                        "the site acknowledged events that were never sent: is the store an old copy?");
   if (!bridge.set_aside().empty())
     status.mergeSummary(DiagnosticStatus::ERROR, "a damaged store was set aside: " + bridge.set_aside());
   if (bridge.drops()[BridgeDrop::kLost] > 0) status.mergeSummary(DiagnosticStatus::ERROR, "events were lost");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
+#include <regex>
 #include <thread>
 
 #include "host_clock.hpp"
@@ -16,17 +17,22 @@ FileSource::FileSource(const std::string& address) : path_(address.substr(0, add
     throw CameraRefusal({{"file:" + address, 0, "'" + option + "' is no option: only ?loop is"}});
   loop_ = !option.empty();
   is_sequence_ = path_.find('%') != std::string::npos;
+  if (is_sequence_ && !std::regex_match(path_, std::regex("[^%]*%0?[1-9][du][^%]*")))
+    throw CameraRefusal({{"file:" + path_, 0, "must have one number, such as %04d, for the pictures of a sequence"}});
   rewind();
 }
 
 void FileSource::rewind() {
-  const bool may_be = is_sequence_ || std::filesystem::is_regular_file(path_);  // OpenCV would say much, and try URLs
+  const bool is_there = std::filesystem::is_regular_file(path_);  // OpenCV would say much, and try URLs
   try {
-    if (may_be) capture_.open(path_, is_sequence_ ? cv::CAP_IMAGES : cv::CAP_ANY);
+    if (is_there || is_sequence_) capture_.open(path_, is_sequence_ ? cv::CAP_IMAGES : cv::CAP_ANY);
   } catch (const cv::Exception&) {
     capture_.release();
   }
-  if (!capture_.isOpened()) throw CameraError("file:" + path_ + " is no video or image sequence that can be read");
+  if (capture_.isOpened()) return;
+  const std::string name = "file:" + path_;
+  if (is_there) throw CameraRefusal({{name, 0, "is no video that can be read"}});
+  throw CameraError(name + " is not there, or no image sequence that can be read");
 }
 
 SourceInfo FileSource::start(const CameraSettings& settings, const FrameAllocator& allocate) {

@@ -10,6 +10,8 @@ std::unique_ptr<FrameSource> open_source(const std::string& uri) {
   const std::size_t colon = uri.find(':');
   const std::string kind = uri.substr(0, colon);
   const std::string address = colon == std::string::npos ? "" : uri.substr(colon + 1);
+  if (address.empty() && (kind == "file" || kind == "v4l2"))
+    throw CameraRefusal({{uri, 0, "names nothing: it has to go on as file:/path/video.avi or v4l2:/dev/video0"}});
   if (kind == "file") return std::make_unique<FileSource>(address);
   if (kind == "v4l2") return std::make_unique<V4l2Source>(address, open_v4l2_port(address));
   if (kind == "gige") return open_aravis_source(AravisBus::kGige, address);

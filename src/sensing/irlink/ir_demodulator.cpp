@@ -15,6 +15,7 @@ namespace {
 constexpr int kChunk = 1024;  // samples that are worked on at once
 constexpr double kGap_s = 1e-3;
 constexpr double kRateTolerance = 1e-3;
+constexpr unsigned kMendingTrials = 1u << kDoubtfulBits;
 
 /// 0 when there is no even number of samples from 4 to 32 to a bit.
 int samples_per_bit(double sample_rate_hz, double bit_rate_bps) {
@@ -68,7 +69,7 @@ class IrDemodulator::Stream {
   void restart() {
     filter_ = ManchesterFilter(channels_, samples_per_bit_, full_scale_counts_, kChunk);
     matched_.clear();
-    searched_ = 0;
+    searched_ = spoilt_until_ = 0;
     taken_ = block_first_ = 0;
     candidate_.reset();
   }
@@ -122,8 +123,12 @@ class IrDemodulator::Stream {
     const SlicedFrame sliced = slicer_.slice(&matched_[static_cast<std::size_t>(at)], candidate_->match);
     candidate_.reset();
     frame_.octets = sliced.octets;
-    // A frame that is none may hide one that begins within it.
-    searched_ = at + (mend(sliced) ? frame_span_ : sync_span_);
+    // A frame that is none may hide one that begins within it. A transmitter that jams with the pattern alone would
+    // have each of its own mended: within a spoilt one only what is sound as it stands counts.
+    const bool in_spoilt = at < spoilt_until_;
+    const bool is_sound = mend(sliced, in_spoilt ? 1 : kMendingTrials);
+    if (!is_sound && !in_spoilt) spoilt_until_ = at + frame_span_;
+    searched_ = at + (is_sound ? frame_span_ : sync_span_);
     const auto newest = static_cast<double>(taken_ - filter_.delay());
     frame_.stamp = stamp_of(newest - (size() - at) + sliced.begin);
     frame_.levels.clear();
@@ -137,12 +142,12 @@ class IrDemodulator::Stream {
     return code_.correct(octets) && read_field<std::uint16_t>(octets, ir_field::kCrc) == frame_crc(octets);
   }
 
-  /// Whether the frame is sound, if need be with some of its least certain bits turned: all ways to do so are tried,
-  /// one bit turned from each to the next (D. Chase, "A class of algorithms for decoding block codes with channel
-  /// measurement information", IEEE Trans. Information Theory 18, 1972, algorithm 2).
-  bool mend(const SlicedFrame& sliced) {
+  /// Whether the frame is sound, if need be with some of its least certain bits turned: with kMendingTrials all ways
+  /// are tried, one bit turned from each to the next (D. Chase, "A class of algorithms for decoding block codes with
+  /// channel measurement information", IEEE Trans. Information Theory 18, 1972, algorithm 2).
+  bool mend(const SlicedFrame& sliced, unsigned trials) {
     IrOctets octets = sliced.octets;
-    for (unsigned trial = 1; trial <= 1u << kDoubtfulBits; ++trial) {
+    for (unsigned trial = 1; trial <= trials; ++trial) {
       if (sound(octets)) {
         frame_.octets = octets;
         return true;
@@ -159,6 +164,7 @@ class IrDemodulator::Stream {
     if (kept_from < frame_span_) return;
     matched_.erase(matched_.begin(), matched_.begin() + kept_from);
     searched_ -= kept_from;
+    spoilt_until_ = std::max(0, spoilt_until_ - kept_from);
     if (candidate_) candidate_->at -= kept_from;
   }
 
@@ -169,6 +175,7 @@ class IrDemodulator::Stream {
   ReedSolomon code_;
   std::vector<IrLanes> matched_;  ///< the filter's outputs that a frame may still begin in
   int searched_ = 0;              ///< up to here in matched_
+  int spoilt_until_ = 0;          ///< where in matched_ the last frame that was none ends
   std::optional<Candidate> candidate_;
   std::int64_t taken_ = 0, block_first_ = 0;  ///< samples since the start
   Stamp block_stamp_;

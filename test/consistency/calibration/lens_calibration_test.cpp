@@ -46,8 +46,8 @@ PaintedBoard chessboard() {
   return {board, picture, 0.5 * Eigen::Vector2d(picture.cols, picture.rows) / kPixelsPerM, false, radians(40)};
 }
 
-PaintedBoard charuco() {
-  const Board board{Board::Kind::kCharuco, 8, 6, 0.04, 0.03};
+PaintedBoard charuco(int columns = 8) {
+  const Board board{Board::Kind::kCharuco, columns, 6, 0.04, 0.03};
   const int side = static_cast<int>(board.square_m * kPixelsPerM);
   cv::Mat picture;
   cv::aruco::CharucoBoard::create(board.columns, board.rows, static_cast<float>(board.square_m),
@@ -136,7 +136,21 @@ TEST(LensCalibration, Charuco) {
 }
 
 TEST(LensCalibration, Aprilgrid) {
-  for (const int draw : {0, 1}) expect_lens(aprilgrid(), 40, 30, draw);
+  for (const int draw : {0, 3}) expect_lens(aprilgrid(), 80, 60, draw);
+}
+
+TEST(LensCalibration, OneRowOfMarksIsNoView) {
+  const PaintedBoard painted = charuco(12);
+  const int side = static_cast<int>(painted.board.square_m * kPixelsPerM);
+  const auto seen = [&](int rows) {
+    cv::Mat image(500, 1300, CV_8UC1, cv::Scalar(255)), small;
+    cv::resize(painted.picture.rowRange(0, rows * side), small, {}, 0.6, 0.6, cv::INTER_AREA);
+    small.copyTo(image(cv::Rect(40, 40, small.cols, small.rows)));
+    return find_board(test::image_of(image), painted.board);
+  };
+  ASSERT_TRUE(seen(3));
+  EXPECT_GE(seen(3)->size(), 20u);
+  EXPECT_FALSE(seen(2));
 }
 
 }  // namespace

@@ -18,12 +18,14 @@ class MovedBeacon : public testing::Test {
     told_ = *loaded;
     told_.duration_s = 80;
     told_.route.waypoints.back().stop_s = 100;
+    add_beacons(told_.site);
     sim::Scenario hung = told_;
     hang(hung.site);
     simulation_ = std::make_unique<sim::Simulation>(hung);
     line_ = std::make_unique<LocalizationLine>(sim::make_line(told_));
   }
 
+  virtual void add_beacons(Site&) const {}
   virtual void hang(Site& site) const {
     for (Beacon& beacon : site.beacons)
       if (beacon.id == kMoved) beacon.position_map += Eigen::Vector3d(-0.3, 0.4, 0);
@@ -63,10 +65,10 @@ class MovedBeacon : public testing::Test {
   void say_as_told(RawIrFrame& frame) const {
     const IrFrameDecoder decoder(told_.site.link, static_cast<int>(told_.site.tone_table_hz.size()));
     const auto decoded = decoder.decode(frame);
-    if (!decoded || decoded->beacon != kMoved) return;
+    if (!decoded) return;
     Announcement said = *decoded;
     for (const Beacon& beacon : told_.site.beacons)
-      if (beacon.id == kMoved) said.position_map = beacon.position_map;
+      if (beacon.id == decoded->beacon) said.position_map = beacon.position_map;
     frame.octets = encode_ir_frame(said, told_.site.link);
   }
   void check(const LocalizationLine::Outcome& outcome) {
@@ -133,6 +135,27 @@ TEST_F(SwappedBeacons, that_say_so_are_both_left_out_until_they_are_confirmed) {
   for (const BeaconId id : {kMoved, kOther}) ASSERT_TRUE(line_->confirm(id, now_));
   EXPECT_TRUE(drive(true, [&] { return used(); }));
   EXPECT_EQ(line_->beacon_table().beacons().size(), 4u);
+  EXPECT_LT(worst_m(), 0.1);
+}
+
+/// ... under three others: more have to agree than disagree.
+class SwappedOfFive : public SwappedBeacons {
+ protected:
+  void add_beacons(Site& site) const override {
+    Beacon fifth = site.beacons.front();
+    fifth.id = BeaconId{15};
+    fifth.position_map = {2.5, 2.2, 5};
+    fifth.tones = ToneSet({1, 3});
+    fifth.slot = 1;
+    site.beacons.push_back(fifth);
+  }
+};
+
+TEST_F(SwappedOfFive, that_do_not_know_it_are_both_found_out_by_the_others) {
+  const auto& distrusted = line_->fusion().distrusted();
+  ASSERT_TRUE(drive(false, [&] { return distrusted.size() == 2; }));
+  EXPECT_EQ(distrusted.count(kMoved), 1u);
+  EXPECT_EQ(distrusted.count(kOther), 1u);
   EXPECT_LT(worst_m(), 0.1);
 }
 

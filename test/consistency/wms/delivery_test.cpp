@@ -76,6 +76,21 @@ Outcome connect(const MqttParams& params) {
   return outcome;
 }
 
+TEST_F(Delivery, ALostConnectionSaysWhichOne) {
+  Broker broker;
+  MqttLink link(mqtt("truck7", {broker.uri()}));
+  link.connect(0, {});
+  std::string reason;
+  run_until([&] { return !reason.empty(); },
+            [&] {
+              for (const LinkEvent& event : link.take()) {
+                if (std::holds_alternative<LinkUp>(event)) broker.kill();
+                if (const auto* down = std::get_if<LinkDown>(&event)) reason = down->reason;
+              }
+            });
+  EXPECT_EQ(reason, "lost: " + broker.uri());
+}
+
 bool run(const std::string& command) { return std::system(("(" + command + ") >/dev/null 2>&1").c_str()) == 0; }
 
 TEST_F(Delivery, CredentialsAreAsked) {

@@ -130,7 +130,7 @@ TEST_F(Heard, TheTrucksStateIsSentAsVda5050Wants) {
     };
     ASSERT_TRUE(until([&] { return control.newest("state") != nullptr; }));
     bridge.telemetry().take_integrity(true, 0.1);
-    bridge.telemetry().take_loads({change(1).pallet, change(5).pallet});
+    bridge.telemetry().take_loads(std::vector<Pallet>{change(1).pallet, change(5).pallet});
     bridge.telemetry().take_battery({0.5, 48.5, false}, test::clocks().monotonic);
     ASSERT_TRUE(until([&] { return control.says("visualization", "agvPosition"); }));
     EXPECT_TRUE(until([&] { return control.says("state", "loadId"); }));

@@ -146,6 +146,22 @@ TEST(CodeBook, has_no_code_that_one_rhythm_or_a_beat_makes) {
   EXPECT_GT(codes, 500);
 }
 
+/// 14 16: a light that glitters, now more and now less, may have them.
+TEST(CodeBook, keeps_a_codes_tones_apart_where_it_can) {
+  const auto closest_hz = [](const CodeBook& book) {
+    double closest_hz = 1e9;
+    for (const ToneSet code : book.codes) {
+      const std::vector<int> own = code.indices();
+      for (std::size_t i = 1; i < own.size(); ++i)
+        closest_hz = std::min(closest_hz, book.tone_table_hz[static_cast<std::size_t>(own[i])] -
+                                              book.tone_table_hz[static_cast<std::size_t>(own[i - 1])]);
+    }
+    return closest_hz;
+  };
+  EXPECT_GT(closest_hz(make_code_book({}, 16)), 3.9);
+  EXPECT_NEAR(closest_hz(make_code_book({}, 22)), 2, 0.1) << "pairs of neighbours before triples";
+}
+
 TEST(CodeBook, holds_the_papers_plan) {
   const CodeBook book = make_code_book({25, 5, 50, Waveform::kSquare, {1}, 4}, 2);
   EXPECT_EQ(book.tone_table_hz, (std::vector<double>{5, 10}));

@@ -134,14 +134,15 @@ struct HallOfLamps {
  private:
   using SeenFrom = std::function<Eigen::Vector2d(double, const Eigen::Vector3d&)>;
 
-  /// Pairs, none a multiple of the other.
+  /// Pairs, none a multiple of the other, nor its neighbour.
   static std::vector<ToneSet> planned_codes() {
     std::vector<ToneSet> codes;
     for (int a = 0; a < static_cast<int>(kPlanTones_hz.size()); ++a) {
       for (int b = a + 1; b < static_cast<int>(kPlanTones_hz.size()); ++b) {
         const double low_hz = kPlanTones_hz[static_cast<std::size_t>(a)];
         const double high_hz = kPlanTones_hz[static_cast<std::size_t>(b)];
-        if (std::fmod(high_hz, low_hz) != 0) codes.push_back({a, b});
+        const double apart_hz = 1.5 * kPlanRate_hz / plan_params().window_frames;
+        if (std::fmod(high_hz, low_hz) != 0 && high_hz - low_hz > apart_hz) codes.push_back({a, b});
       }
     }
     return codes;
@@ -149,12 +150,12 @@ struct HallOfLamps {
 
   static bool shines(const Beacon& beacon) { return beacon.id.value % 4 == 1; }
 
-  /// Two rows, beacons 4 m apart; a code returns after 46 m.
+  /// Two rows, beacons 5.5 m apart; a code returns after 44 m, farther than a camera sees and a receiver hears together.
   static std::vector<Beacon> hang_beacons(double length_m, const SeenFrom& seen_from, BlobScene& scene) {
     Noise& random = scene.random();
     const std::vector<ToneSet> codes = planned_codes();
     std::vector<Beacon> beacons;
-    for (double x = -14; x < length_m + 14; x += 4) {
+    for (double x = -14; x < length_m + 14; x += 5.5) {
       for (const double y : {-1.8, 1.8}) {
         Beacon beacon;
         beacon.id = BeaconId{static_cast<std::uint32_t>(beacons.size() + 1)};

@@ -71,6 +71,20 @@ TEST(CalibrateLens, MarksThatAreFarOffAreLeftOut) {
   EXPECT_NEAR(found->rms_px, 0.1, 0.01);
 }
 
+// It pulls the place of a view of few marks, and all of them with it.
+TEST(CalibrateLens, OneMarkThatIsFarOffTakesNoViewWithIt) {
+  auto seen = views(20, 0.1, radians(70));
+  for (std::size_t i = 0; i < 3; ++i) {
+    BoardView few;
+    for (std::size_t mark = 0; mark < seen[i].size(); mark += 7) few.push_back(seen[i][mark]);
+    few[4].pixel.y() += 6;
+    seen[i] = few;
+  }
+  const auto found = calibrate_lens(seen, 1280, 960);
+  ASSERT_TRUE(found.ok()) << found.error();
+  EXPECT_EQ(found->outliers, 3);
+}
+
 TEST(CalibrateLens, TooFewViewsAreRefused) {
   const auto found = calibrate_lens(views(3, 0, 1), 1280, 960);
   ASSERT_FALSE(found.ok());

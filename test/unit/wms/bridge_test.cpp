@@ -208,10 +208,10 @@ TEST_F(BridgeTest, ATrackerFromAnOldBackupTellsNothingTwiceAndAllThatIsNew) {
   for (int n = 1; n <= kEvents; ++n) {
     bridge.take(of_life(n / 100, n), now());
     if (n % 50 != 0) continue;
+    poll(bridge, 2);  // connects, sends
     acknowledge(bridge, n);
     poll(bridge);
   }
-  poll(bridge);
   ASSERT_EQ(bridge.store().acknowledged(), kEvents + 0u);
   for (int n = 1; n <= 450; ++n) bridge.take(of_life(n / 100, n), now());
   EXPECT_EQ(bridge.drops()[BridgeDrop::kKnown], 450u);
@@ -426,7 +426,8 @@ TEST_F(BridgeTest, TelemetryFollowsTheTruck) {
     bridge.telemetry().take_integrity(true, 0.1);
     poll(bridge);
   }
-  bridge.telemetry().take_loads({change(1).pallet});
+  EXPECT_FALSE(json::parse(link_.on("/state").back().payload).contains("loads")) << "nobody has told";
+  bridge.telemetry().take_loads(std::vector<Pallet>{change(1).pallet});
   bridge.telemetry().take_battery({0.5, std::nullopt, true}, now().monotonic);
   poll(bridge);
   json state = json::parse(link_.on("/state").back().payload);
@@ -450,13 +451,22 @@ TEST_F(BridgeTest, TelemetryFollowsTheTruck) {
   state = json::parse(link_.on("/state").back().payload);
   EXPECT_EQ(state["errors"][0]["errorType"], "localizationLost");
   EXPECT_EQ(state["agvPosition"]["positionInitialized"], false);
+  EXPECT_EQ(state["driving"], false);
+  EXPECT_EQ(state["information"].size(), 2u) << "of safetyState and driving";
   EXPECT_EQ(state["batteryState"]["batteryCharge"], 50.0);
   // Nor the battery's charge: it is not known any more.
   time_s_ += 60;
   poll(bridge, 2);
   state = json::parse(link_.on("/state").back().payload);
   EXPECT_EQ(state["batteryState"], json({{"batteryCharge", 0.0}, {"charging", false}}));
-  EXPECT_EQ(state["information"].size(), 2u);
+  EXPECT_EQ(state["information"].size(), 3u);
+  EXPECT_EQ(state["loads"].size(), 1u);
+  bridge.telemetry().take_loads(std::vector<Pallet>{});
+  poll(bridge);
+  EXPECT_EQ(json::parse(link_.on("/state").back().payload)["loads"], json::array()) << "nothing on the fork";
+  bridge.telemetry().take_loads(std::nullopt);
+  poll(bridge);
+  EXPECT_FALSE(json::parse(link_.on("/state").back().payload).contains("loads")) << "nobody knows";
 }
 
 TEST(BridgeParams, AllFaultsAtOnce) {
@@ -494,11 +504,24 @@ TEST(BridgeParams, TheReferenceSystemIsAUri) {
 TEST(BridgeParams, WhatStandsInATopicIsUtf8) {
   BridgeParams params = test::bridge_params("/tmp/x");
   const auto refused = [&](const std::string& text) {
+    params.vda.manufacturer = text;
+    return told_wrong(params, "manufacturer", text);
+  };
+  for (const char* text : {"truck7", "Z\xc3\xbcge 7", "\"7\\", "\xf0\x9f\x9a\x9a"}) EXPECT_FALSE(refused(text)) << text;
+  for (const char* text :
+       {"", "a/b", "a+", "#", "$SYS", "a\nb", "a\x7f", "\xff\xfe", "a\xc3", "\xc0\xaf", "\xed\xa0\x80"})
+    EXPECT_TRUE(refused(text)) << text;
+}
+
+TEST(BridgeParams, TheSerialNumberIsOneOfVda5050) {
+  BridgeParams params = test::bridge_params("/tmp/x");
+  const auto refused = [&](const std::string& text) {
     params.vda.serial = text;
     return told_wrong(params, "serial", text);
   };
-  for (const char* text : {"truck7", "Z\xc3\xbcge 7", "\"7\\", "\xf0\x9f\x9a\x9a"}) EXPECT_FALSE(refused(text)) << text;
-  for (const char* text : {"", "a/b", "a+", "#", "a\nb", "a\x7f", "\xff\xfe", "a\xc3", "\xc0\xaf", "\xed\xa0\x80"})
+  for (const char* text : {"truck7", "A-Z_a.z:09", "7"}) EXPECT_FALSE(refused(text)) << text;
+  for (const std::string& text : {std::string(), std::string(65, 'a'), std::string("truck 7"), std::string("a/b"),
+                                  std::string("$7"), std::string("Z\xc3\xbcge"), std::string("a\n")})
     EXPECT_TRUE(refused(text)) << text;
 }
 

@@ -220,6 +220,72 @@ TEST(Documents, WhatProvesToBeAnotherPalletIsToldOfThatOne) {
   EXPECT_EQ(end.others.at(0)["epcList"], json({"urn:uuid:" + uuid(9)}));
 }
 
+/// How change(2) left by a dock, and what was told about it then.
+PalletChange told_gone(PalletChangeKind kind) {
+  PalletChange out = kind == PalletChangeKind::kDrop ? change(2) : correction(PalletState::kGone);
+  out.pallet.state = PalletState::kGone;
+  out.pallet.zone = "DOCK-1";
+  return out;
+}
+
+TEST(Documents, ALabelThatIsToldAfterTheDepartureReplacesAllNames) {
+  PalletChange unread_gone = told_gone(PalletChangeKind::kDrop);
+  unread_gone.pallet.sscc.clear();
+  const std::string departed = document(unread_gone);
+  const std::string labelled = document(told_gone(PalletChangeKind::kCorrection), {unread(1), departed});
+  const Told told = told_in(labelled);
+  ASSERT_EQ(told.replaced.size(), 3u);
+  EXPECT_EQ(told.replaced[0].second["childEPCs"], json({kLabel}));
+  EXPECT_EQ(told.replaced[1].second["childEPCs"], json({kLabel}));
+  EXPECT_EQ(told.replaced[2].second["epcList"], json({kLabel}));
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_EQ(told.replaced[i].second["bizStep"], "departing");
+    EXPECT_EQ(told.replaced[i].second["lodestar:state"], "gone");
+    EXPECT_EQ(told.replaced[i].second["readPoint"], events_of(departed)[1]["readPoint"]);
+  }
+  ASSERT_EQ(told.others.size(), 1u);
+  EXPECT_EQ(told.others[0]["bizStep"], "departing");
+}
+
+TEST(Documents, WhatLeftInDoubtIsGoneUnderItsRightName) {
+  PalletChange lifted = change(1), left = told_gone(PalletChangeKind::kDrop), merged = left, ended = left;
+  for (PalletChange* each : {&lifted, &left}) {
+    each->pallet.id = uuid(9);
+    each->pallet.sscc.clear();
+    each->candidates = {uuid(1), uuid(4)};
+  }
+  lifted.pallet.state = PalletState::kUncertain;
+  merged.kind = ended.kind = PalletChangeKind::kCorrection;
+  ended.pallet.id = uuid(9);
+  ended.pallet.sscc.clear();
+  const std::vector<std::string> before = {document(lifted), document(left)};
+  const Told told = told_in(document(merged, before));
+  ASSERT_EQ(told.replaced.size(), 3u);
+  EXPECT_EQ(told.replaced[0].second["disposition"], "in_transit");
+  EXPECT_EQ(told.replaced[0].second["lodestar:state"], "on_fork");
+  for (const auto& [wrong, right] : told.replaced) {
+    EXPECT_EQ(right["lodestar:pallet"], "urn:uuid:" + uuid(1));
+    EXPECT_FALSE(right.contains("lodestar:candidate"));
+    EXPECT_EQ(right["bizStep"], wrong["bizStep"]);
+  }
+  EXPECT_EQ(told.replaced[2].second["lodestar:state"], "gone");
+  EXPECT_EQ(told.replaced[2].second["disposition"], "in_transit");
+
+  merged.pallet.sscc.clear();
+  EXPECT_EQ(told_in(document(merged, before)).replaced.size(), 3u) << "it has another name, though no label";
+  EXPECT_TRUE(told_in(document(ended, before)).replaced.empty());
+}
+
+TEST(Documents, TheEndOfANameStaysTold) {
+  PalletChange nameless = told_gone(PalletChangeKind::kCorrection);
+  nameless.pallet.sscc.clear();
+  const std::string ended = document(nameless, {unread(1), unread(2)});
+  ASSERT_EQ(events_of(ended).at(0)["bizStep"], "decommissioning");
+  for (const PalletState state : {PalletState::kGone, PalletState::kStanding})
+    for (const auto& [wrong, right] : told_in(document(correction(state), {unread(1), unread(2), ended})).replaced)
+      EXPECT_NE(wrong["bizStep"], "decommissioning");
+}
+
 TEST(Documents, DoubtAndDepartureAreNoErrors) {
   PalletChange doubt = correction(PalletState::kUncertain), sure = correction(PalletState::kStanding);
   doubt.pallet.zone = sure.pallet.zone = change(2).pallet.zone;
@@ -304,7 +370,7 @@ TEST(Documents, Vda5050Examples) {
   truck.localized = true;
   truck.protection_level_m = 0.125;
   truck.driving = true;
-  truck.loads = {change(1).pallet};
+  truck.loads.emplace({change(1).pallet});
   truck.battery = Battery{0.75, 48.5, false};
   expect_example("vda5050_connection", messages.connection(VdaConnection::kOnline, test::at(0)).payload);
   expect_example("vda5050_state", messages.state(truck, test::at(1)).payload);

@@ -60,6 +60,20 @@ TEST_F(Store, NumbersFromOneAndKeepsEverythingOverARestart) {
   EXPECT_EQ(documents[0].document, "3:d3");
 }
 
+TEST_F(Store, KnowsHowFarItHandedOver) {
+  {
+    EventStore store(params(), kStream);
+    for (int n = 1; n <= 9; ++n) store.record(change(n), "d");
+    EXPECT_EQ(store.handed_over(), 0u);
+    store.documents(1, 6, freeze);
+    EXPECT_EQ(store.handed_over(), 6u);
+  }
+  EventStore store(params(), uuid(901));
+  EXPECT_EQ(store.handed_over(), 6u);
+  store.documents(4, 2, freeze);
+  EXPECT_EQ(store.handed_over(), 6u);
+}
+
 TEST_F(Store, TheSameEventIsRecordedOnce) {
   EventStore store(params(), kStream);
   EXPECT_EQ(store.record(change(1), "d"), Recorded::kNew);

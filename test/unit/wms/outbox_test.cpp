@@ -27,7 +27,7 @@ Batch send(Outbox& outbox, double time_s) {
 }
 
 TEST(Outbox, NothingGoesWithoutAConnection) {
-  Outbox outbox({}, kStream, 0, 10);
+  Outbox outbox({}, kStream, {0, 0, 10});
   EXPECT_EQ(outbox.due(second(0)).count, 0u);
   outbox.connected(second(1));
   EXPECT_EQ(outbox.due(second(1)).first, 1u);
@@ -37,7 +37,7 @@ TEST(Outbox, NothingGoesWithoutAConnection) {
 }
 
 TEST(Outbox, OnlyTheSiteMovesTheWindow) {
-  Outbox outbox({}, kStream, 0, 200);
+  Outbox outbox({}, kStream, {0, 0, 200});
   outbox.connected(second(0));
   EXPECT_EQ(send(outbox, 0).count, 50u);
   EXPECT_EQ(send(outbox, 0.1).count, 0u);
@@ -50,7 +50,7 @@ TEST(Outbox, OnlyTheSiteMovesTheWindow) {
 }
 
 TEST(Outbox, AcknowledgementsThatSayNothingNew) {
-  Outbox outbox({}, kStream, 0, 30);
+  Outbox outbox({}, kStream, {0, 0, 30});
   outbox.connected(second(0));
   send(outbox, 0);
   EXPECT_TRUE(outbox.take(ack(10), false, second(0.1)));
@@ -70,8 +70,26 @@ TEST(Outbox, AcknowledgementsThatSayNothingNew) {
   EXPECT_EQ(outbox.drops()[AckDrop::kMalformed], 8u);
 }
 
+TEST(Outbox, WhatWasNeverSentCannotBeAcknowledged) {
+  Outbox outbox({}, kStream, {0, 0, 200});
+  EXPECT_FALSE(outbox.take(ack(1), true, second(0)));
+  outbox.connected(second(0));
+  send(outbox, 0);
+  EXPECT_FALSE(outbox.take(ack(51), false, second(0.1)));
+  EXPECT_EQ(outbox.drops()[AckDrop::kAhead], 2u);
+  EXPECT_TRUE(outbox.take(ack(50), false, second(0.1)));
+}
+
+TEST(Outbox, WhatABridgeBeforeSentMayBeAcknowledged) {
+  Outbox outbox({}, kStream, {10, 60, 200});
+  EXPECT_FALSE(outbox.take(ack(61), true, second(0)));
+  EXPECT_TRUE(outbox.take(ack(60), true, second(0)));
+  outbox.connected(second(1));
+  EXPECT_EQ(send(outbox, 1).first, 61u);
+}
+
 TEST(Outbox, AReconnectSendsAgainFromTheFirstThatIsNotAcknowledged) {
-  Outbox outbox({}, kStream, 4, 30);
+  Outbox outbox({}, kStream, {4, 4, 30});
   outbox.connected(second(0));
   send(outbox, 0);
   outbox.take(ack(9), false, second(0.1));
@@ -82,7 +100,7 @@ TEST(Outbox, AReconnectSendsAgainFromTheFirstThatIsNotAcknowledged) {
 }
 
 TEST(Outbox, ASilentSiteIsAskedAgainEverMoreSeldom) {
-  Outbox outbox({}, kStream, 0, 3);
+  Outbox outbox({}, kStream, {0, 0, 3});
   outbox.connected(second(0));
   std::vector<double> times_s;
   for (double time_s = 0; time_s < 200; time_s += 0.5)
@@ -94,7 +112,7 @@ TEST(Outbox, ASilentSiteIsAskedAgainEverMoreSeldom) {
 }
 
 TEST(Outbox, ASiteThatMissesOneIsHeardOnceASecond) {
-  Outbox outbox({}, kStream, 0, 10);
+  Outbox outbox({}, kStream, {0, 0, 10});
   outbox.connected(second(0));
   send(outbox, 0);
   outbox.take(ack(2), false, second(0.1));
@@ -115,7 +133,7 @@ TEST(Outbox, ReachesTheSiteOverABadNetwork) {
     std::mt19937 random(trial);
     const auto chance = [&](double probability) { return std::bernoulli_distribution(probability)(random); };
     constexpr std::uint64_t kAll = 300;
-    Outbox outbox({}, kStream, 0, 0);
+    Outbox outbox({}, kStream, {0, 0, 0});
     SiteInbox site;
     site.learn(kStream, 0);
     std::vector<std::uint64_t> arrived;

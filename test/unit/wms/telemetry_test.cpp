@@ -46,7 +46,7 @@ class DrivingTest : public testing::Test {
 };
 
 TEST_F(DrivingTest, AChangeIsToldAtOnceAndOnce) {
-  EXPECT_EQ(move(0, 0), std::vector<bool>{false}) << "the first state";
+  EXPECT_EQ(move(0, 0), (std::vector<bool>{false, false})) << "the first state, and the first that is known";
   EXPECT_EQ(move(1, 0), std::vector<bool>{true});
   EXPECT_EQ(move(-1, 0), std::vector<bool>{}) << "backwards, too, is driving";
   EXPECT_EQ(move(0, 0), std::vector<bool>{false});

@@ -11,7 +11,8 @@
 namespace lodestar {
 
 /// What a person or the warehouse's software knows better of one pallet. What is left out stays as it is; its doubt, if
-/// any, ends: with nothing but the id the pallet is confirmed as it is told.
+/// any, ends: with nothing but the id the pallet is confirmed as it is told. One that is gone stays gone, unless it
+/// is told to stand somewhere else than in a dock zone.
 struct PalletCorrection {
   Stamp stamp;
   std::string id;                  ///< of the pallet that is told wrong, or asked for

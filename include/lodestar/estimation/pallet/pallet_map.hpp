@@ -13,6 +13,9 @@
 
 namespace lodestar {
 
+/// Whether it is known to a metre (one sigma) where the pallet is; else it may be anywhere.
+bool has_place(const Pallet& pallet);
+
 /// All pallets that are known, by id: the last change of each, which holds the pallet as it is.
 class PalletMap {
  public:
@@ -32,7 +35,7 @@ class PalletMap {
   const PalletSize& size(const std::string& type) const;
   const PalletSize* find_size(const std::string& type) const;
 
-  /// Standing pallets, uncertain ones among them, whose place is known to a metre. On the fork or gone: not here.
+  /// Standing pallets, uncertain ones among them, that have a place. On the fork or gone: not here.
   std::vector<const Pallet*> standing() const;
 
   /// Those that stand with their middle over this pallet and higher, from the lowest up.

@@ -12,6 +12,9 @@ namespace lodestar {
 /// there, and the pallet stays as it is.
 bool put(Pallet& pallet, const PalletPose& pose, const std::vector<Zone>& zones, const PalletMap& map);
 
+/// Whether it was put where what is set down leaves the site.
+bool lies_in_dock(const Pallet& pallet, const std::vector<Zone>& zones);
+
 /// Puts it somewhere: where it was last, with a sigma of a kilometre and any yaw, in no zone.
 void put_anywhere(Pallet& pallet);
 

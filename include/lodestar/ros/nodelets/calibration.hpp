@@ -23,13 +23,13 @@ class Calibration {
   /// whose K is zero, which means uncalibrated.
   sensor_msgs::CameraInfoPtr info(const sensor_msgs::Image& image, const std::optional<CameraIntrinsics>& own);
 
-  /// What is wrong with the last one; empty: nothing.
-  std::string fault();
+  /// What is wrong with the last one, an empty text: nothing; none: there was no image yet.
+  std::optional<std::string> fault();
 
  private:
   camera_info_manager::CameraInfoManager manager_;
   std::mutex mutex_;
-  std::string fault_;
+  std::optional<std::string> fault_;
 };
 
 }  // namespace lodestar

@@ -16,6 +16,7 @@ namespace lodestar {
 class IrReceiverNodelet : public nodelet::Nodelet {
  private:
   void onInit() override;
+  void poll();
   void take(const std::uint8_t* bytes, std::size_t count);
   void report(Health::Status& status);
 
@@ -26,6 +27,7 @@ class IrReceiverNodelet : public nodelet::Nodelet {
   std::unique_ptr<BoardLink> link_;
   HostClock host_clock_;
   std::unique_ptr<SerialLine> line_;
+  std::string told_fault_;  ///< of the line, in the log
   ros::WallTimer poll_;
 };
 

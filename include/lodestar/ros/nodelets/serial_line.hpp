@@ -16,6 +16,9 @@ class SerialLine {
  public:
   using OnBytes = std::function<void(const std::uint8_t* bytes, std::size_t count)>;
 
+  /// Whether a serial device can be set to it: the system knows certain rates alone.
+  static bool is_baud_rate(unsigned baud);
+
   /// @param on_cut the device is gone
   SerialLine(std::string device, unsigned baud, OnBytes on_bytes, std::function<void()> on_cut);
 

@@ -271,20 +271,29 @@ Result<DeviceFrame, NoFrame> AravisSource::frame_of(ArvBuffer& buffer) const {
   return frame;
 }
 
-/// The id of the first camera on a bus; empty: none.
-std::string first_camera(AravisBus bus) {
+bool is_serial_number_of(unsigned int device, const std::string& number) {
+  const char* const serial = arv_get_device_serial_nbr(device);
+  return serial != nullptr && number == serial;
+}
+
+/// What Aravis is to open, empty: nothing. A name is looked up in its list, which knows the way there as well; without
+/// it Aravis may take another network interface. An address says both.
+std::string camera_of(AravisBus bus, const std::string& address) {
+  if (g_hostname_is_ip_address(address.c_str())) return address;
   const std::string protocol = bus == AravisBus::kGige ? "GigEVision" : "USB3Vision";
   arv_update_device_list();
-  for (unsigned int i = 0; i < arv_get_n_devices(); ++i)
-    if (protocol == arv_get_device_protocol(i)) return arv_get_device_id(i);
-  return "";
+  for (unsigned int i = 0; i < arv_get_n_devices(); ++i) {
+    if (protocol != arv_get_device_protocol(i)) continue;
+    if (address.empty() || is_serial_number_of(i, address)) return arv_get_device_id(i);
+  }
+  return address;
 }
 
 }  // namespace
 
 std::unique_ptr<FrameSource> open_aravis_source(AravisBus bus, const std::string& address) {
   const std::string name = (bus == AravisBus::kGige ? "gige:" : "usb3:") + address;
-  const std::string id = address.empty() ? first_camera(bus) : address;
+  const std::string id = camera_of(bus, address);
   if (id.empty()) throw CameraError(name + " no such camera was found");
   GError* error = nullptr;
   Reference<ArvCamera> camera(arv_camera_new(id.c_str(), &error));

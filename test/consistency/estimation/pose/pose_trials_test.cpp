@@ -23,6 +23,27 @@ TEST(PoseTrials, ThreeMirrorImagesOfEightAreOutvoted) {
   EXPECT_EQ(test::count_failures_with_three_lies(500, true, true), 0);
 }
 
+/// Where gravity's error outweighs the bearings most, thirty to one.
+TEST(PoseTrials, GravityGivenToATenthOfADegreeIsTold) {
+  PoseSolverParams params = test::camera_is_base();
+  params.gravity = Gravity::kGiven;
+  const PoseSolver solver(params);
+  for (const bool mixed : {false, true}) {
+    constexpr int kTrials = 10000;
+    double nees = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      test::Random random(trial);
+      const test::Layout layout = test::grid_layout(random, 16, mixed);
+      const test::Seen seen = test::see(random, layout, 0.1, radians(0.1));
+      const auto fix = solver.solve(seen.bearings, seen.tilt, RigidTransform::Identity());
+      ASSERT_TRUE(fix.ok()) << trial;
+      const Eigen::Vector4d error = test::error_of(fix->T_map_base, layout);
+      nees += error.dot(test::of_position_and_yaw(fix->covariance).inverse() * error) / kTrials;
+    }
+    EXPECT_NEAR(nees, 4, 0.1) << (mixed ? "mixed heights" : "flat ceiling");
+  }
+}
+
 TEST(PoseTrials, Observability) {
   for (const test::ObservabilityRow& row : test::observability(300)) {
     SCOPED_TRACE(row.what);

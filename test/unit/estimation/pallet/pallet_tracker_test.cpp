@@ -100,6 +100,43 @@ TEST(PalletTracker, asks_where_two_may_be_meant_and_takes_the_answer) {
   EXPECT_EQ(corrected->at(0).corrects, 8u) << "the drop of id3";
 }
 
+TEST(PalletTracker, what_left_by_a_dock_stays_gone_whatever_it_proves_to_be) {
+  PalletTrackerParams params;
+  Zone dock;
+  dock.code = "D";
+  dock.kind = ZoneKind::kDock;
+  dock.polygon_map = rectangle({50, 0}, 0, {4, 4});
+  params.zones = {dock};
+  PalletTruck truck(params);
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  truck.set_sigma(0.4);
+  truck.stand(0, 0.5);
+  ASSERT_EQ(truck.lift().at(0).candidates.size(), 2u);
+  truck.set_sigma(0.01);
+  truck.stand(50, 0);
+  ASSERT_EQ(truck.lower().at(0).pallet.state, PalletState::kGone);
+
+  PalletCorrection answer;
+  answer.stamp = truck.now;
+  answer.id = "id3";
+  answer.same_as = "id1";
+  ASSERT_TRUE(truck.tracker.correct(answer).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kGone);
+  EXPECT_EQ(truck.pallet("id1").zone, "D");
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+
+  PalletCorrection moved;
+  moved.stamp = truck.now;
+  moved.id = "id1";
+  moved.pose = PalletPose();
+  ASSERT_TRUE(truck.tracker.correct(moved).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding) << "told to stand elsewhere it is back";
+  moved.pose->T_map_pallet.translation().x() = 50;
+  ASSERT_TRUE(truck.tracker.correct(moved).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kGone) << "as if it had been set down there";
+}
+
 TEST(PalletTracker, asks_where_one_stands_that_is_not_quite_there) {
   PalletTruck truck;
   truck.bring(0, 0, PalletTruck::sscc(1));
@@ -413,6 +450,50 @@ TEST(PalletTracker, takes_a_persons_word) {
   gone.gone = true;
   ASSERT_TRUE(truck.tracker.correct(gone).ok());
   EXPECT_EQ(truck.pallet("id1").state, PalletState::kGone);
+}
+
+TEST(PalletTracker, where_a_person_says_that_one_stands_no_other_does) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(5, 0, PalletTruck::sscc(2));
+  PalletCorrection correction;
+  correction.stamp = truck.now;
+  correction.id = "id1";
+  correction.pose = pose_of(truck.pallet("id2"));
+  correction.gone = true;
+  ASSERT_TRUE(truck.tracker.correct(correction).ok());
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding) << "what is gone is in nobody's way";
+  correction.gone = false;
+  const auto changes = truck.tracker.correct(correction);
+  ASSERT_TRUE(changes.ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kUncertain);
+  ASSERT_EQ(changes->size(), 2u);
+  EXPECT_EQ(changes->at(1).reason, "another pallet was told to be where it stood");
+  PalletCorrection confirmed;
+  confirmed.stamp = truck.now;
+  confirmed.id = "id2";
+  ASSERT_TRUE(truck.tracker.correct(confirmed).ok());
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "not both of them";
+}
+
+TEST(PalletTracker, one_without_a_place_accuses_nobody) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(2));
+  truck.lift();
+  truck.has_pose = false;
+  truck.now += std::chrono::seconds(1);
+  truck.load(true);
+  truck.lower();
+  truck.has_pose = true;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  PalletCorrection confirmed;
+  confirmed.stamp = truck.now;
+  confirmed.id = "id1";
+  ASSERT_TRUE(truck.tracker.correct(confirmed).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding) << "somewhere";
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding) << "where the other was last";
 }
 
 }  // namespace

@@ -127,7 +127,11 @@ TEST_F(FileSourceTest, WaitsNoLongerThanAsked) {
 TEST_F(FileSourceTest, FaultsSayWhatToDo) {
   EXPECT_THROW(open_source("file:/nowhere/x.avi"), CameraError);
   EXPECT_THROW(open_source("file:/nowhere/x.avi?fast"), CameraRefusal);
-  EXPECT_THROW(open_source("webcam"), CameraRefusal);
+  EXPECT_THROW(open_source("file:" + folder_ + "/later_%04d.png"), CameraError) << "it may come";
+  std::ofstream(folder_ + "/letter.avi") << "no video";
+  for (const char* name : {"/letter.avi", "/frame_%s.png", "/frame_%4d_%4d.png", "/frame_%"})
+    EXPECT_THROW(open_source("file:" + folder_ + name), CameraRefusal) << name;
+  for (const char* uri : {"webcam", "file:", "v4l2:"}) EXPECT_THROW(open_source(uri), CameraRefusal) << uri;
   const auto source = open_source(write_sequence(CV_8UC1));
   EXPECT_THROW(source->start({}, memory_.allocator()), CameraRefusal) << "no rate";
   settings_.exposure_s = 0.001;

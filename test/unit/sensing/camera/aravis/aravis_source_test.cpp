@@ -80,6 +80,15 @@ TEST_F(AravisSourceTest, TheDriverWritesIntoOurMemory) {
   }
 }
 
+TEST_F(AravisSourceTest, IsFoundByItsNameAndSerialNumberAndWithoutAny) {
+  const FakeGigeCamera camera;
+  for (const char* uri : {"gige:Aravis-Fake-GV01", "gige:GV01", "gige:"}) {
+    SCOPED_TRACE(uri);
+    Capture capture([uri] { return open_source(uri); }, settings_, memory_.allocator(), 0);
+    EXPECT_NO_THROW(next_frame(capture));
+  }
+}
+
 TEST_F(AravisSourceTest, SixteenBitsAndAnotherSize) {
   const FakeGigeCamera camera;
   settings_.pixel_format = "mono16";
