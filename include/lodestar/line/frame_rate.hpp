@@ -8,9 +8,9 @@
 namespace lodestar {
 
 /// The camera's frame rate from its first stamps: the slope of a line through them, as soon as three of its sigmas are
-/// less than half a percent and the stamps keep to it. A dropped frame counts as the periods it spans, and a rate within
-/// half a percent of a whole number is that number: cameras are set to those, and the aliases of the mains multiply what
-/// is left of the error.
+/// less than half a percent and the stamps keep to it. A dropped frame counts as the periods it spans, and a rate
+/// within half a percent of a whole number is that number: cameras are set to those, and the aliases of the mains
+/// multiply what is left of the error.
 class FrameRateEstimate {
  public:
   static constexpr int kFrames = 21, kMostFrames = 120;

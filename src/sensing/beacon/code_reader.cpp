@@ -311,8 +311,8 @@ CodeReader::Reading CodeReader::read_newest(const BlobTrack& track, const FrameW
 bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                           double dark_variance) {
   // Wald's sequential test, from the newest frame back: the light that is known, or none.
-  constexpr float kSure = 9;            // one in e^9 is taken for the other
-  constexpr float kModelShare = 0.08f;  // of the light, that the known waves leave open
+  constexpr float kSure = 9;           // one in e^9 is taken for the other
+  constexpr float kWaveShare = 0.08f;  // of the light, that the known waves leave open
   const KnownLight& known = track.light;
   if (known.mean <= 0) return false;
   const float noise = std::max(known.variance, static_cast<float>(dark_variance) * track.filter().flux_variance());
@@ -320,7 +320,7 @@ bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, con
   for (int age = 0; age < track.frames() && std::abs(odds) < kSure; ++age) {
     const int slot = window.slot(age);
     const float expected = known.at(bank, slot);
-    const float model = kModelShare * std::max(expected, known.mean);
+    const float model = kWaveShare * std::max(expected, known.mean);
     odds += expected * (0.5f * expected - track.flux()[slot]) / (noise + model * model);
   }
   return odds >= kSure;

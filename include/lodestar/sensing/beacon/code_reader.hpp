@@ -79,6 +79,7 @@ class CodeReader {
   Reading read_newest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, int frames,
                       double dark_variance);
   void remember(KnownLight& light, const Reading& reading) const;
+  /// Whether it is a code, explains the light, and is deep and strong enough.
   bool stands(const BlobTrack& track, const Reading& reading, const PowerThresholds& thresholds) const;
   /// Whether the newest frames lack the light that was read before.
   static bool has_gone(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
