@@ -8,6 +8,8 @@ namespace lodestar {
 namespace {
 
 constexpr double kWholeNumber = 0.005;  ///< a rate so near to one is it
+constexpr double kMostJitter = 0.25;    ///< rms, of the period; 20 % to either side are 0.12
+constexpr double kSameRate = 0.01;      ///< two estimates so near are of one rate
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -35,7 +37,9 @@ std::optional<double> FrameRateEstimate::settled_period_s() const {
   const double spread2 = number.square().sum();
   const double period_s = (number * time_s).sum() / spread2;
   const double jitter2_s2 = (time_s - period_s * number).square().sum() / static_cast<double>(count - 2);
-  const bool settled = 3 * std::sqrt(jitter2_s2 / spread2) < kWholeNumber * period_s;
+  // Where many frames are lost their numbers may be wrong, and the stamps walk off the line.
+  const bool straight = jitter2_s2 < kMostJitter * kMostJitter * period_s * period_s;
+  const bool settled = straight && 3 * std::sqrt(jitter2_s2 / spread2) < kWholeNumber * period_s;
   return settled || count == kMostFrames ? std::optional(period_s) : std::nullopt;
 }
 
@@ -50,6 +54,27 @@ std::optional<double> FrameRateEstimate::add(Stamp stamp) {
   if (!period_s) return std::nullopt;
   const double rate_hz = 1 / *period_s, whole_hz = std::round(rate_hz);
   return whole_hz > 0 && std::abs(rate_hz - whole_hz) < kWholeNumber * whole_hz ? whole_hz : rate_hz;
+}
+
+std::optional<double> FrameRateWatch::add(Stamp stamp) {
+  const auto agree = [](double a_hz, double b_hz) { return std::abs(a_hz - b_hz) <= kSameRate * b_hz; };
+  const auto rate_hz = estimate_.add(stamp);
+  if (!rate_hz) return std::nullopt;
+  // What did not settle in all these frames is a guess: good enough where nothing is known.
+  const bool settled = estimate_.frames() < FrameRateEstimate::kMostFrames;
+  estimate_ = FrameRateEstimate();
+  if (known_hz_) {
+    if (!settled || agree(*rate_hz, *known_hz_)) {
+      suspected_hz_.reset();
+      return std::nullopt;
+    }
+    const bool again = suspected_hz_ && agree(*rate_hz, *suspected_hz_);
+    suspected_hz_ = rate_hz;
+    if (!again) return std::nullopt;
+  }
+  suspected_hz_.reset();
+  known_hz_ = rate_hz;
+  return rate_hz;
 }
 
 }  // namespace lodestar

@@ -23,7 +23,7 @@ void BeaconDetectionNodelet::onInit() {
                 {lowest.false_alarms_per_hour, highest.false_alarms_per_hour});
   reader.number("code_margin_db", config_.code_margin_db, {lowest.code_margin_db, highest.code_margin_db});
   edge_ = std::make_unique<StageEdge>(nh, getPrivateNodeHandle(), reader, "beacon detection", [this] { reset(); });
-  frame_rate_hz_ = edge_->vehicle().camera_rate_hz;
+  rate_ = FrameRateWatch(edge_->vehicle().camera_rate_hz);
 
   Health& health = edge_->health();
   image_watch_ = &health.watch("image", Need::kRequired);
@@ -49,7 +49,7 @@ void BeaconDetectionNodelet::start_inputs(ros::NodeHandle& nh) {
       std::make_unique<EstimateInput>(nh, edge_->health(), edge_->map_frame(), [this](const StateEstimate& estimate) {
         if (stage_) stage_->set_estimate(estimate);
       });
-  if (frame_rate_hz_) make_stage();
+  if (rate_.known_hz()) make_stage();
   image_transport::ImageTransport transport(nh);
   images_ = transport.subscribe("camera/image_raw", kImageQueue, &BeaconDetectionNodelet::take_image, this,
                                 image_transport::TransportHints("raw", {}, getPrivateNodeHandle()));
@@ -73,7 +73,7 @@ void BeaconDetectionNodelet::tune(const BeaconDetectionConfig& config) {
 }
 
 void BeaconDetectionNodelet::make_stage() {
-  LineParams params = line_params(edge_->site(), edge_->vehicle(), *frame_rate_hz_);
+  LineParams params = line_params(edge_->site(), edge_->vehicle(), *rate_.known_hz());
   params.detector.false_alarms_per_hour = config_.false_alarms_per_hour;
   params.detector.reader.code.margin_db = config_.code_margin_db;
   heard_for_ = params.heard_for;
@@ -87,25 +87,27 @@ void BeaconDetectionNodelet::take_image(const sensor_msgs::ImageConstPtr& messag
   const auto image = image_from(message, edge_->vehicle().camera_time_offset_s);
   if (!image) return edge_->health().drop(image.error());
   if (!edge_->admit(message->header.stamp)) return;
+  if (const auto rate_hz = rate_.add(image->stamp)) take_rate(*rate_hz);
   if (stage_) return process(*image);
   if (!tone_faults_.empty()) return edge_->health().drop(EdgeDrop::kTones);
-
   early_images_.push_back(*image);
   if (early_images_.size() > FrameRateEstimate::kFrames) early_images_.pop_front();
-  frame_rate_hz_ = rate_.add(image->stamp);
-  if (!frame_rate_hz_) return;
-  NODELET_INFO("the camera sends %.2f frames a second", *frame_rate_hz_);
+}
+
+/// The first rate that is known, or another one under a running detector.
+void BeaconDetectionNodelet::take_rate(double rate_hz) {
+  NODELET_INFO("the camera sends %.2f frames a second", rate_hz);
   const Vehicle& vehicle = edge_->vehicle();
-  tone_faults_ =
-      check_tones(edge_->site(), {*frame_rate_hz_, vehicle.mains_hz, vehicle.window_frames}, edge_->site_path());
+  tone_faults_ = check_tones(edge_->site(), {rate_hz, vehicle.mains_hz, vehicle.window_frames}, edge_->site_path());
   if (!tone_faults_.empty()) {
     NODELET_ERROR_STREAM("no beacon is looked for:\n" << describe(tone_faults_));
-    return;
+    stage_.reset();
+  } else {
+    make_stage();
+    for (const Motion& early : early_motion_) add_motion(early);
+    for (const Image& early : early_images_) process(early);
+    early_motion_.clear();
   }
-  make_stage();
-  for (const Motion& early : early_motion_) add_motion(early);
-  for (const Image& early : early_images_) process(early);
-  early_motion_.clear();
   early_images_.clear();
 }
 
@@ -127,7 +129,7 @@ void BeaconDetectionNodelet::process(const Image& image) {
 }
 
 void BeaconDetectionNodelet::report(Health::Status& status) {
-  status.addf("frame_rate_hz", "%.2f", frame_rate_hz_.value_or(0));
+  status.addf("frame_rate_hz", "%.2f", rate_.known_hz().value_or(0));
   status.add("sightings in the last window", last_sightings_);
   status.add("named in the last window", last_named_);
   if (!tone_faults_.empty()) status.mergeSummary(Health::Status::ERROR, describe(tone_faults_));

@@ -32,7 +32,7 @@ void BlobTrack::restart(const PathFilter& path) {
   path_ = path;
   shape_ = SpotShape();
   designed_ = false;
-  code = ToneSet();
+  light = KnownLight();
   hidden = false;
   flux_.setZero();
   shift_u_.setZero();
@@ -48,6 +48,7 @@ double BlobTrack::gate_px() const { return std::clamp(4.0 * std::sqrt(path_.vari
 
 void BlobTrack::hide() {
   hidden = true;
+  light.mean = 0;
   unseen_ = static_cast<int>(flux_.size());
   frames_ = 0;
   path_.forget_acceleration();  // over a second what noise has made of it leads far away
@@ -103,7 +104,9 @@ BlobTrack::Look BlobTrack::look(const FrameWindow& window, const Eigen::Vector2d
   }
 
   const Eigen::Vector2d pixel = anchor_ + (light.shift / std::max(light.flux, sigma)).cast<double>();
-  const bool seen = light.flux > kSeenSigmas * sigma && (pixel - place).norm() < gate;
+  // Where nothing shines the brightest noise within the gate would pull a hidden one away, frame by frame.
+  const float least = hidden && !path_.still() ? kSureSigmas : kSeenSigmas;
+  const bool seen = light.flux > least * sigma && (pixel - place).norm() < gate;
   const float clipped = patch_.clipped_radius(anchor_, noise.white_level);
   if (clipped > kMaxClippedPx) return Look::kOutside;
   const int slot = window.newest();

@@ -43,8 +43,11 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
   return shift.square().sum() - cross * cross / flux_square;
 }
 
+/// Energy that noise of variance 1 has in so many frames, 3 sigma above its mean.
+float scatter_of(float frames) { return frames + 3 * std::sqrt(2 * frames); }
+
 /// Whether the blob has been read so and not been hidden since: what it must prove then is less.
-bool is_known(const BlobTrack& track, const ToneSet& code) { return code == track.code && !track.hidden; }
+bool is_known(const BlobTrack& track, const ToneSet& code) { return code == track.light.code && !track.hidden; }
 
 }  // namespace
 
@@ -172,7 +175,7 @@ bool CodeReader::has_waveform(const BlobTrack& track, const ToneBank& bank, cons
   const BlobTrack::Series& flux = track.flux();
   const auto frames = static_cast<float>(flux.size());
   const float noise = static_cast<float>(dark_variance) * track.filter().flux_variance();
-  const float scatter = (frames + 3 * std::sqrt(2 * frames)) * noise;
+  const float scatter = scatter_of(frames) * noise;
   const float light = std::max(0.0f, reading.energy - frames * noise);
   const auto tones = static_cast<float>(reading.code.size());
   if (reading.on_off_misfit < kMaxUneven * light + scatter && on_off_residual(flux) < kMaxOnOffError * light + scatter)
@@ -198,6 +201,8 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const FrameW
   float weakest = std::numeric_limits<float>::max();
   for (int tone = 0, c = 0; tone < bank.tones(); ++tone) {
     if (!fit.code.contains(tone)) continue;
+    reading.waves.segment<2>(c) = bank.in_waves(tone, fit.amplitudes.segment<2>(c));
+    reading.constant -= reading.waves.segment<2>(c).dot(bank.waves().block<2, 1>(2 * tone, 0));
     wave_ += fit.amplitudes[c] * bank.basis().row(2 * tone).transpose().array() +
              fit.amplitudes[c + 1] * bank.basis().row(2 * tone + 1).transpose().array();
     reading.sent += fit.amplitudes.segment<2>(c).dot(projections_.segment<2>(2 * tone));
@@ -206,6 +211,7 @@ CodeReader::Reading CodeReader::read_window(const BlobTrack& track, const FrameW
   }
   reading.mean = flux.mean();
   reading.energy = (flux - reading.mean).square().sum();
+  reading.constant += reading.mean + wave_[0];
 
   const Stamp newest = window.at(window.newest()).stamp;
   for (int slot = 0; slot < frames; ++slot) times_[slot] = static_cast<float>(seconds(window.at(slot).stamp - newest));
@@ -244,73 +250,80 @@ void CodeReader::learn(BlobTrack& track, const FrameWindow& window, const ToneBa
   if (!reading.code.empty()) refine_centre(track, reading);
 }
 
-CodeReader::Reading CodeReader::read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
-                                          double dark_variance) {
+CodeReader::Reading CodeReader::read_newest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                                            int frames, double dark_variance) {
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
-  const int columns = 1 + 2 * track.code.size();
+  const int columns = 1 + 2 * track.light.code.size();
   SmallMatrix normal = SmallMatrix::Zero(columns, columns);
   Columns right = Columns::Zero(columns), row(columns);
   const auto fill = [&](int slot) {
     int c = 0;
     row[c++] = 1;
     for (int k = 0; k < bank.tones(); ++k) {
-      if (!track.code.contains(k)) continue;
+      if (!track.light.code.contains(k)) continue;
       row[c++] = bank.waves()(2 * k, slot);
       row[c++] = bank.waves()(2 * k + 1, slot);
     }
   };
   float mean = 0;
-  for (int age = 0; age < track.frames(); ++age) {
+  for (int age = 0; age < frames; ++age) {
     const int slot = window.slot(age);
     fill(slot);
     normal += row * row.transpose();
     right += row * track.flux()[slot];
-    mean += track.flux()[slot] / static_cast<float>(track.frames());
+    mean += track.flux()[slot] / static_cast<float>(frames);
   }
   const Columns x = normal.ldlt().solve(right);
 
-  float energy = 0, left = 0;
+  float energy = 0;
   wave_.setZero();
-  for (int age = 0; age < track.frames(); ++age) {
+  for (int age = 0; age < frames; ++age) {
     const int slot = window.slot(age);
     fill(slot);
-    const float flux = track.flux()[slot], model = row.dot(x);
-    wave_[slot] = model - x[0];
-    energy += (flux - mean) * (flux - mean);
-    left += (flux - model) * (flux - model);
+    wave_[slot] = row.dot(x) - x[0];
+    energy += (track.flux()[slot] - mean) * (track.flux()[slot] - mean);
   }
   Reading reading;
-  reading.code = track.code;
-  reading.mean = x[0];
+  reading.code = track.light.code;
+  reading.mean = reading.constant = x[0];
+  reading.waves.head(columns - 1) = x.tail(columns - 1);
+  const auto left_by_model = [&] {
+    weights_ *= (wave_ != 0).cast<float>();  // the other frames have none
+    return (weights_ * (track.flux() - model_).square()).sum() * static_cast<float>(frames) / weights_.sum();
+  };
+  model_tones(track.flux(), reading.mean);
+  float left = left_by_model();
+  if (track.light.on_off) {
+    model_on_off(track.flux());
+    left = std::min(left, left_by_model());
+  }
   const float flux_variance = track.filter().flux_variance();
-  reading.pixel_variance = left / static_cast<float>(std::max(1, track.frames() - columns)) / flux_variance;
-  const float noise = static_cast<float>(std::max(dark_variance, reading.pixel_variance)) * flux_variance;
+  const float dark_noise = static_cast<float>(dark_variance) * flux_variance;
+  reading.explained = left <= kMaxRhythmError * energy + scatter_of(static_cast<float>(frames)) * dark_noise;
+  const float noise = std::max(dark_noise, left / static_cast<float>(std::max(1, frames - columns)));
   float weakest = std::numeric_limits<float>::max();
   for (int c = 1; c < columns; c += 2)
-    weakest = std::min(weakest, 0.5f * static_cast<float>(track.frames()) * x.segment<2>(c).squaredNorm());
+    weakest = std::min(weakest, 0.5f * static_cast<float>(frames) * x.segment<2>(c).squaredNorm());
   reading.weakest_over_noise = weakest / noise;
-  // Two tones of three account for two thirds: another beacon may be there now.
-  const float most_left = reading.code.size() == 1 ? static_cast<float>(1 - params_.min_explained) : kMaxToneError;
-  reading.explained = left <= most_left * energy + static_cast<float>(track.frames()) * noise;
   return reading;
 }
 
-bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading,
-                          double dark_variance) const {
-  constexpr float kDarkShare = 0.3f;  ///< of the light that is expected
-  // An on-off beacon is farther from its tone than one that is dimmed.
-  const float limit = (reading.code.size() == 1 ? 2.5f : 0.7f) * reading.mean;
-  const float sigma = std::sqrt(static_cast<float>(dark_variance) * track.filter().flux_variance());
-  float missing = 0;
-  for (int age = 0; age < track.frames(); ++age) {
+bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
+                          double dark_variance) {
+  // Wald's sequential test, from the newest frame back: the light that is known, or none.
+  constexpr float kSure = 9;           // one in e^9 is taken for the other
+  constexpr float kWaveShare = 0.08f;  // of the light, that the known waves leave open
+  const KnownLight& known = track.light;
+  if (known.mean <= 0) return false;
+  const float noise = std::max(known.variance, static_cast<float>(dark_variance) * track.filter().flux_variance());
+  float odds = 0;  // log of the likelihoods' ratio
+  for (int age = 0; age < track.frames() && std::abs(odds) < kSure; ++age) {
     const int slot = window.slot(age);
-    const float expected = reading.mean + wave_[slot], flux = track.flux()[slot];
-    if (expected < std::max(kDarkShare * reading.mean, 5 * sigma)) continue;  // it is dark by itself
-    if (flux > kDarkShare * expected) return false;
-    missing += expected;
-    if (missing > limit) return true;
+    const float expected = known.at(bank, slot);
+    const float model = kWaveShare * std::max(expected, known.mean);
+    odds += expected * (0.5f * expected - track.flux()[slot]) / (noise + model * model);
   }
-  return false;
+  return odds >= kSure;
 }
 
 void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
@@ -358,30 +371,31 @@ void CodeReader::refine_centre(BlobTrack& track, const Reading& reading) {
 
 std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                          const PowerThresholds& thresholds, double dark_variance) {
-  const bool whole = track.frames() == window.capacity();
-  constexpr int kLeastFreedom = 4;  // of a fit that means something
-  const int freedom = track.frames() - 1 - 2 * track.code.size();
-  if (!whole && !(track.hidden && 2 * track.frames() >= window.capacity() && freedom >= kLeastFreedom))
-    return std::nullopt;
-  const Reading reading =
-      whole ? read_window(track, window, bank, dark_variance) : read_rest(track, window, bank, dark_variance);
-  if (whole) track.learn_noise(reading.pixel_variance);
-  if (reading.code.empty() || !reading.explained) return std::nullopt;
-  // A beacon is dimmed all the way, 0.4 to 0.7 of its mean rms; what shimmers on a steady lamp is not.
-  if (wave_.square().mean() < kMinDepth * kMinDepth * reading.mean * reading.mean) return std::nullopt;
-  // Before the test of power: what has gone leaves a residual that looks like noise.
-  if (reading.code == track.code && has_gone(track, window, reading, dark_variance)) {
+  // Before the window is read: what has gone leaves a residual that looks like noise, or another code.
+  if (has_gone(track, window, bank, dark_variance)) {
     track.hide();
     return std::nullopt;
   }
-  const double threshold = is_known(track, reading.code) ? thresholds.known_code : thresholds.new_code;
-  if (reading.weakest_over_noise < threshold) return std::nullopt;
-  if (whole && !has_waveform(track, bank, reading, dark_variance)) return std::nullopt;
-  if (whole) {
-    track.code = reading.code;
-    track.hidden = false;
-    if (track.path().still()) refine_centre(track, reading);
+  std::optional<Reading> reading;
+  if (track.frames() == window.capacity()) {
+    reading = read_window(track, window, bank, dark_variance);
+    track.learn_noise(reading->pixel_variance);
+    if (!stands(track, *reading, thresholds) || !has_waveform(track, bank, *reading, dark_variance)) {
+      reading.reset();
+    } else {
+      track.hidden = false;
+      if (track.path().still()) refine_centre(track, *reading);
+    }
   }
+  constexpr int kLeastFreedom = 4;  // of a fit that means something
+  const int half = window.capacity() / 2;
+  const bool proven = track.light.readings >= half && half - 1 - 2 * track.light.code.size() >= kLeastFreedom;
+  if (!reading && track.hidden && proven && track.frames() >= half) {
+    reading = read_newest(track, window, bank, half, dark_variance);
+    if (!stands(track, *reading, thresholds)) return std::nullopt;
+  }
+  if (!reading) return std::nullopt;
+  remember(track.light, *reading);
   track.confirm();
   if (track.path().variance() > kMaxCentreSigmaPx * kMaxCentreSigmaPx) return std::nullopt;
 
@@ -389,10 +403,28 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
   sighting.pixel = track.path().pixel();
   const double model_sigma_px = kModelShare * static_cast<double>(track.shape().sigma_px);
   sighting.covariance = Eigen::Matrix2d::Identity() * (track.path().variance() + model_sigma_px * model_sigma_px);
-  sighting.tones = reading.code;
-  sighting.snr_db = 10.0 * std::log10(reading.weakest_over_noise / 2.0);
+  sighting.tones = reading->code;
+  sighting.snr_db = 10.0 * std::log10(reading->weakest_over_noise / 2.0);
   sighting.saturated = track.saturated();
   return sighting;
+}
+
+void CodeReader::remember(KnownLight& light, const Reading& reading) const {
+  light.waves = reading.waves;
+  light.mean = reading.constant;
+  const float misfit = std::min(reading.tone_misfit, reading.on_off_misfit);
+  if (misfit == std::numeric_limits<float>::infinity()) return;  // of half a window, which was read as what it was
+  light.readings = reading.code == light.code ? light.readings + 1 : 1;
+  light.code = reading.code;
+  light.on_off = reading.on_off_misfit < reading.tone_misfit;
+  light.variance = misfit / static_cast<float>(std::max<Eigen::Index>(1, wave_.size() - 1 - 2 * reading.code.size()));
+}
+
+bool CodeReader::stands(const BlobTrack& track, const Reading& reading, const PowerThresholds& thresholds) const {
+  if (reading.code.empty() || !reading.explained) return false;
+  // A beacon is dimmed all the way, 0.4 to 0.7 of its mean rms; what shimmers on a steady lamp is not.
+  if (wave_.square().mean() < kMinDepth * kMinDepth * reading.mean * reading.mean) return false;
+  return reading.weakest_over_noise >= (is_known(track, reading.code) ? thresholds.known_code : thresholds.new_code);
 }
 
 }  // namespace lodestar

@@ -12,7 +12,8 @@ ToneBank::ToneBank(int slots, const std::vector<double>& tones_hz)
     : tones_hz_(tones_hz),
       waves_(Basis::Zero(2 * static_cast<Eigen::Index>(tones_hz.size()), slots)),
       basis_(waves_),
-      gram_(Basis::Identity(basis_.rows(), basis_.rows())) {}
+      gram_(Basis::Identity(basis_.rows(), basis_.rows())),
+      spans_(Eigen::Matrix2Xf::Zero(2, basis_.rows())) {}
 
 ToneBank::ToneBank(const std::vector<Stamp>& stamps, const std::vector<double>& tones_hz)
     : ToneBank(static_cast<int>(stamps.size()), tones_hz) {
@@ -36,15 +37,19 @@ void ToneBank::update() {
   const float least = 1e-6f * static_cast<float>(slots());
   const auto normalize_or_clear = [least](auto&& row) {
     const float square = row.squaredNorm();
-    row *= square > least ? 1.0f / std::sqrt(square) : 0.0f;
+    const float scale = square > least ? 1.0f / std::sqrt(square) : 0.0f;
+    row *= scale;
+    return scale;
   };
   for (Eigen::Index k = 0; k < basis_.rows(); k += 2) {
     auto cosine = basis_.row(k), sine = basis_.row(k + 1);
     cosine.array() = waves_.row(k).array() - waves_.row(k).mean();
-    normalize_or_clear(cosine);
+    const float cosine_scale = normalize_or_clear(cosine);
     sine.array() = waves_.row(k + 1).array() - waves_.row(k + 1).mean();
-    sine -= cosine.dot(sine) * cosine;
-    normalize_or_clear(sine);
+    const float common = cosine.dot(sine);
+    sine -= common * cosine;
+    const float sine_scale = normalize_or_clear(sine);
+    spans_.middleCols<2>(k) << cosine_scale, -common * sine_scale * cosine_scale, 0, sine_scale;
   }
   gram_.noalias() = basis_ * basis_.transpose();
 }

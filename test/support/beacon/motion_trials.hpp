@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "support/beacon/grid.hpp"
 
@@ -191,41 +192,54 @@ inline MotionTally motion_windows(const MotionCase& what, long windows, unsigned
   return tally;
 }
 
-/// One beacon that is switched on, hidden for a while, and shown again.
+inline std::string spelled(const ToneSet& code) {
+  std::string text;
+  for (const int tone : code.indices())
+    text += std::to_string(static_cast<int>(kPlanTones_hz[static_cast<std::size_t>(tone)])) + " ";
+  return text;
+}
+
+/// One beacon that is switched on, hidden at any instant of its waveform for a while, and shown again.
 struct DarkAndHidden {
   double speed_px = 0;  ///< a frame
   bool motion_input = true;
   int hidden_frames = 10;
   double light = 300;
-  ToneSet back = {1, 4};  ///< the code of what comes back: another beacon, perhaps
+  ToneSet own = {1, 4};
+  ToneSet back = own;   ///< the code of what comes back: another beacon, perhaps
+  bool square = false;  ///< on-off, one tone
 
   std::optional<int> frames_until_seen, frames_until_back;
   int last_ghost_frame = 0;  ///< the last frame after the hiding in which it is still reported; 0: none
   int gaps = 0;              ///< frames between, in view, without a sighting
+  int early_gaps = 0;        ///< ... while the window still holds frames from before it was switched on
   int wrong = 0;
 
   void run(unsigned seed) {
-    constexpr int kOn = 40, kHidden = kOn + 60;
+    constexpr int kOn = 40;
     constexpr double kFocal_px = 400, kHeight_m = 4;
-    const int shown = kHidden + hidden_frames;
     BlobScene scene(seed);
+    const int hidden = kOn + 60 + static_cast<int>(scene.random().uniform(0, 30)), shown = hidden + hidden_frames;
     scene.width_px = 640;
     scene.height_px = 100;
     scene.electrons_per_level = 20;
     const double row = scene.random().uniform(30, 70);
     const double speed_px_s = speed_px * kPlanRate_hz;
     const auto place = [=](double t) { return Eigen::Vector2d(600 - speed_px_s * t, row); };
-    const ToneSet own = {1, 4};
-    const auto light_on = beacon(scene.random(), light, {8, 14}, false);
-    std::vector<double> back_hz;
-    for (const int tone : back.indices()) back_hz.push_back(kPlanTones_hz[static_cast<std::size_t>(tone)]);
-    const auto light_back = back == own ? light_on : beacon(scene.random(), light, back_hz, false);
+    const auto light_of = [&](const ToneSet& code) {
+      std::vector<double> tones_hz;
+      for (const int tone : code.indices()) tones_hz.push_back(kPlanTones_hz[static_cast<std::size_t>(tone)]);
+      return beacon(scene.random(), light, tones_hz, square);
+    };
+    const auto light_on = light_of(own);
+    const auto light_back = back == own ? light_on : light_of(back);
     scene.lights = {{place, [&](double t) {
                        const auto frame = static_cast<int>(std::lround(t * kPlanRate_hz));
-                       if (frame < kOn || (frame >= kHidden && frame < shown)) return 0.0;
+                       if (frame < kOn || (frame >= hidden && frame < shown)) return 0.0;
                        return frame < shown ? light_on(t) : light_back(t);
                      }}};
-    BeaconDetector detector = detector_for(scene, plan_params(), pinhole(scene.width_px, scene.height_px, kFocal_px));
+    const BeaconDetectorParams params = plan_params();
+    BeaconDetector detector = detector_for(scene, params, pinhole(scene.width_px, scene.height_px, kFocal_px));
     detector.set_plane_height(kHeight_m);
     CameraMotion motion;
     for (int i = 0; i < shown + 90; ++i) {
@@ -237,11 +251,11 @@ struct DarkAndHidden {
       const auto sightings = detect(detector, image, motion);
       const bool seen = nearest(sightings, place(t), 4);
       for (const Sighting& sighting : sightings) wrong += sighting.tones != (i < shown ? own : back);
-      if (i < kHidden) {
+      if (i < hidden) {
         if (seen && !frames_until_seen) frames_until_seen = i - kOn + 1;
-        gaps += !seen && frames_until_seen;
+        (i < kOn + params.window_frames ? early_gaps : gaps) += !seen && frames_until_seen;
       } else if (i < shown) {
-        if (!sightings.empty()) last_ghost_frame = i - kHidden + 1;
+        if (!sightings.empty()) last_ghost_frame = i - hidden + 1;
       } else {
         if (seen && !frames_until_back) frames_until_back = i - shown + 1;
         gaps += !seen && frames_until_back;

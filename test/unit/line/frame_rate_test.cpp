@@ -53,5 +53,45 @@ TEST(FrameRateEstimate, AStampThatGoesBackStartsAnew) {
   EXPECT_EQ(estimate.add(Stamp{} + from_seconds(2 + (FrameRateEstimate::kFrames - 1) * 0.04)), 25.0);
 }
 
+TEST(FrameRateWatch, SaysWhenTheRateIsKnownAndWhenItHasBecomeAnother) {
+  FrameRateWatch watch;
+  std::vector<double> said_hz;
+  double time_s = 5;
+  for (const double rate_hz : {60., 50., 60., 30.}) {
+    for (int i = 0; i < 200; ++i) {
+      time_s += 1 / rate_hz;
+      if (const auto said = watch.add(Stamp{} + from_seconds(time_s))) said_hz.push_back(*said);
+    }
+    EXPECT_EQ(watch.known_hz(), rate_hz);
+  }
+  EXPECT_EQ(said_hz, (std::vector<double>{60, 50, 60, 30}));
+}
+
+TEST(FrameRateWatch, ARateThatIsGivenIsHeldAgainstTheStamps) {
+  FrameRateWatch right(60), wrong(50);
+  std::optional<double> said_hz;
+  for (int i = 0; i < 200; ++i) {
+    const Stamp stamp = Stamp{} + from_seconds(5 + i / 60.);
+    EXPECT_FALSE(right.add(stamp));
+    if (const auto said = wrong.add(stamp)) said_hz = said;
+  }
+  EXPECT_EQ(said_hz, 60.0);
+}
+
+TEST(FrameRateWatch, LostFramesAndTremblingStampsAreNoOtherRate) {
+  for (const double lost : {0.1, 0.5, 0.8}) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<double> jitter(-0.2, 0.2), loss(0, 1);
+      FrameRateWatch watch(60);
+      for (int i = 0; i < 2000; ++i) {
+        const Stamp stamp = Stamp{} + from_seconds(5 + (i + jitter(random)) / 60);
+        if (loss(random) < lost) continue;
+        EXPECT_FALSE(watch.add(stamp)) << lost << " lost, run " << seed;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -33,6 +33,7 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   void tune(const BeaconDetectionConfig& config);
   void make_stage();
   void take_image(const sensor_msgs::ImageConstPtr& message);
+  void take_rate(double rate_hz);
   void process(const Image& image);
   void report(Health::Status& status);
   void reset();
@@ -49,9 +50,8 @@ class BeaconDetectionNodelet : public nodelet::Nodelet {
   StreamWatch* image_watch_ = nullptr;
   StreamWatch* sightings_watch_ = nullptr;
   int camera_revision_ = 0;
-  FrameRateEstimate rate_;
+  FrameRateWatch rate_;
   Faults tone_faults_;  ///< of the measured rate: then there is no stage
-  std::optional<double> frame_rate_hz_;
   std::deque<Image> early_images_;   ///< wait for the frame rate
   std::deque<Motion> early_motion_;  ///< likewise
   Duration heard_for_{};

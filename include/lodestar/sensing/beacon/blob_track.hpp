@@ -6,6 +6,7 @@
 
 #include "lodestar/base/measurement/tone_set.hpp"
 #include "lodestar/sensing/beacon/frame_window.hpp"
+#include "lodestar/sensing/beacon/known_light.hpp"
 #include "lodestar/sensing/beacon/path_filter.hpp"
 #include "lodestar/sensing/beacon/spot_filter.hpp"
 
@@ -80,8 +81,8 @@ class BlobTrack {
   /// Variance of a pixel beside the spot, as the code's residual has it; learnt by who reads the code.
   void learn_noise(double pixel_variance) { pixel_variance_ = pixel_variance; }
 
-  /// The code it was last sighted with, and whether its light has gone since (hidden by a mast, a rack).
-  ToneSet code;
+  /// The light that it was last sighted with, and whether that has gone since (hidden by a mast, a rack).
+  KnownLight light;
   bool hidden = false;
   void hide();
   /// Its code was read: it is there, though too faint for one frame to show.

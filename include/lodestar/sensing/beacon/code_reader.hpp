@@ -42,11 +42,13 @@ class CodeReader {
 
  private:
   struct Reading {
-    ToneSet code;                  ///< empty: none that keeps the margins
-    float sent = 0, energy = 0;    ///< power of the code's tones, and of all that varies
-    float mean = 0;                ///< light, grey levels
-    float weakest_over_noise = 0;  ///< power of the code's weakest tone
-    double pixel_variance = 0;     ///< as the residual has it
+    ToneSet code;                                         ///< empty: none that keeps the margins
+    float sent = 0, energy = 0;                           ///< power of the code's tones, and of all that varies
+    float mean = 0;                                       ///< light, grey levels
+    KnownLight::Waves waves = KnownLight::Waves::Zero();  ///< amplitudes of the code's rows in ToneBank::waves()
+    float constant = 0;                                   ///< light beside these
+    float weakest_over_noise = 0;                         ///< power of the code's weakest tone
+    double pixel_variance = 0;                            ///< as the residual has it
     /// What tones, and the two levels of one that is on-off, leave of the energy; infinite where they do not apply.
     float tone_misfit = std::numeric_limits<float>::infinity(), on_off_misfit = tone_misfit;
     bool explained = false;  ///< the code accounts for enough of the varying light
@@ -73,8 +75,14 @@ class CodeReader {
   /// Whether the light goes as a beacon's: its tones as deep as they can be without its going below zero, or on-off.
   bool has_waveform(const BlobTrack& track, const ToneBank& bank, const Reading& reading, double dark_variance);
   Reading read_window(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
-  Reading read_rest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
-  bool has_gone(const BlobTrack& track, const FrameWindow& window, const Reading& reading, double dark_variance) const;
+  /// The same of fewer frames, as the light that was known.
+  Reading read_newest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, int frames,
+                      double dark_variance);
+  void remember(KnownLight& light, const Reading& reading) const;
+  /// Whether it is a code, explains the light, and is deep and strong enough.
+  bool stands(const BlobTrack& track, const Reading& reading, const PowerThresholds& thresholds) const;
+  /// Whether the newest frames lack the light that was read before.
+  static bool has_gone(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, double dark_variance);
   void refine_centre(BlobTrack& track, const Reading& reading);
 
   CodeReaderParams params_;

@@ -47,11 +47,17 @@ class ToneBank {
   /// cos and sin of the tones at the slots' stamps, as they are: rows as in basis().
   const Basis& waves() const { return waves_; }
 
+  /// What amplitudes of a tone's two basis rows are as amplitudes of its rows in waves(): they hold beyond the window.
+  Eigen::Vector2f in_waves(int tone, const Eigen::Vector2f& amplitudes) const {
+    return spans_.middleCols<2>(2 * tone) * amplitudes;
+  }
+
  private:
   std::vector<double> tones_hz_;
   Stamp epoch_;  ///< of the phases; the first frame's stamp
   bool started_ = false;
   Basis waves_, basis_, gram_;
+  Eigen::Matrix2Xf spans_;  ///< how each tone's two rows of the basis are made of those of its waves
 };
 
 /// Power of a tone in what the bank's basis makes of a signal: two projections a tone.

@@ -96,10 +96,40 @@ TEST(Follow, FirstSightingGhostsAndReturn) {
           EXPECT_LE(trial.frames_until_seen.value_or(999), kN + 5) << what;
           EXPECT_LE(trial.last_ghost_frame, 3) << what;
           EXPECT_LE(trial.frames_until_back.value_or(999), kN / 2 + 5) << what;
-          EXPECT_EQ(trial.gaps, 0) << what;
+          EXPECT_EQ(trial.gaps + trial.early_gaps, 0) << what;
           EXPECT_EQ(trial.wrong, 0) << what;
         }
       }
+    }
+  }
+}
+
+/// An on-off beacon in its dark half and one that is hidden are the same image.
+TEST(Follow, WhatIsHiddenAtAnyInstantIsLostAtOnceAndReadAgainWithinHalfAWindow) {
+  constexpr int kN = 30;
+  struct Case {
+    ToneSet code;
+    bool square;
+    int most_ghosts;
+  };
+  for (const Case& what : {Case{{1, 4}, false, 3}, Case{{0, 2}, false, 3}, Case{{1, 4, 6}, false, 3},
+                           Case{{0}, false, 3}, Case{{1}, false, 3}, Case{{7}, false, 3}, Case{{0}, true, 5},
+                           Case{{1}, true, 4}, Case{{3}, true, 3}, Case{{7}, true, 3}}) {
+    for (unsigned seed = 0; seed < 16; ++seed) {
+      test::DarkAndHidden trial;
+      trial.own = trial.back = what.code;
+      trial.square = what.square;
+      trial.speed_px = seed % 2 == 0 ? 0 : 2;
+      trial.light = seed % 4 < 2 ? 100 : 400;
+      trial.hidden_frames = 5 + static_cast<int>(3 * seed);
+      trial.run(seed);
+      const std::string which =
+          test::spelled(what.code) + (what.square ? "Hz, on-off, run " : "Hz, run ") + std::to_string(seed);
+      EXPECT_LE(trial.frames_until_seen.value_or(999), kN + 5) << which;
+      EXPECT_LE(trial.last_ghost_frame, what.most_ghosts) << which;
+      EXPECT_LE(trial.frames_until_back.value_or(999), kN / 2 + 5) << which;
+      EXPECT_EQ(trial.gaps, 0) << which;
+      EXPECT_EQ(trial.wrong, 0) << which;
     }
   }
 }
@@ -112,7 +142,7 @@ TEST(Follow, OneSightingEachFrameFromTheFirstOn) {
       trial.hidden_frames = 5;
       trial.light = 400;
       trial.run(seed);
-      EXPECT_EQ(trial.gaps, 0) << speed_px << " px a frame, run " << seed;
+      EXPECT_EQ(trial.gaps + trial.early_gaps, 0) << speed_px << " px a frame, run " << seed;
     }
   }
 }

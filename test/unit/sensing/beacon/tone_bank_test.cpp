@@ -114,5 +114,18 @@ TEST(ToneBank, AnAliasOfTheConstantHasNoPower) {
   EXPECT_EQ(power(bank, signal(stamps, 25, 9, 0.2), 0), 0);
 }
 
+TEST(ToneBank, WavesGoOnBeyondTheWindow) {
+  auto stamps = even_stamps(40, 60);
+  stamps[5] += from_seconds(0.004);
+  const std::vector<double> tones = {6, 26};
+  const auto x = signal(stamps, 26, 5, 1.1);
+  const ToneBank all(stamps, tones), window({stamps.begin(), stamps.begin() + 30}, tones);
+  const Eigen::Vector2f amplitudes = window.basis().middleRows(2, 2) * x.head(30);
+  const Eigen::Vector2f in_waves = window.in_waves(1, amplitudes);
+  for (int slot = 30; slot < 40; ++slot) {
+    EXPECT_NEAR(in_waves.dot(all.waves().block<2, 1>(2, slot)), x[slot] - 100, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace lodestar
