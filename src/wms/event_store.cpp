@@ -209,8 +209,10 @@ void EventStore::load(const std::string& new_stream) {
 }
 
 std::uint64_t EventStore::handed_over() const {
-  const auto newest = sql_->database.execAndGet("SELECT IFNULL(MAX(sequence), 0) FROM event WHERE frozen = 1");
-  return std::max(acknowledged_, unsigned_of(newest));
+  return checked([&] {
+    const auto newest = sql_->database.execAndGet("SELECT IFNULL(MAX(sequence), 0) FROM event WHERE frozen = 1");
+    return std::max(acknowledged_, unsigned_of(newest));
+  });
 }
 
 /// One transaction. @return false: no room, nothing was changed

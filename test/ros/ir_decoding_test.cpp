@@ -116,7 +116,7 @@ class IrDecoding : public testing::Test {
   bool confirm(BeaconId id) {
     ConfirmBeacon confirm;
     confirm.request.beacon_id = id.value;
-    return ros::service::call("/ir_decoding/confirm_beacon", confirm) && confirm.response.success;
+    return call_service("/ir_decoding/confirm_beacon", confirm) && confirm.response.success;
   }
   BeaconMemory memory() const { return parse_beacon_memory(text_of(memory_)).value_or(BeaconMemory()); }
   bool kept(BeaconId id) const { return memory().confirmed.count(id) > 0; }
@@ -130,7 +130,7 @@ class IrDecoding : public testing::Test {
   }
   bool in_conflict(BeaconId id) {
     GetBeacons table;
-    EXPECT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
+    EXPECT_TRUE(call_service("/ir_decoding/get_beacons", table));
     for (const auto& entry : table.response.beacons)
       if (entry.beacon_id == id.value) return entry.conflict;
     ADD_FAILURE() << "no beacon " << id;
@@ -173,7 +173,7 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
 
   // The table, as the service tells it.
   GetBeacons table;
-  ASSERT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
+  ASSERT_TRUE(call_service("/ir_decoding/get_beacons", table));
   ASSERT_EQ(table.response.beacons.size(), 4u);
   for (const auto& entry : table.response.beacons) {
     EXPECT_EQ(entry.source, BeaconEntry::BOTH);
@@ -234,16 +234,16 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   // Somebody looks after it and says so.
   ConfirmBeacon confirm;
   confirm.request.beacon_id = 99;
-  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  ASSERT_TRUE(call_service("/ir_decoding/confirm_beacon", confirm));
   EXPECT_FALSE(confirm.response.success) << "never heard";
   confirm.request.beacon_id = moved.beacon.value;
-  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  ASSERT_TRUE(call_service("/ir_decoding/confirm_beacon", confirm));
   EXPECT_TRUE(confirm.response.success) << confirm.response.message;
   EXPECT_TRUE(wait_for([&] { return confirmed_.size() == 1; }));
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count(kNode, "beacons in force") == 4; }));
   const Beacon& other = site_.beacons[1];
   confirm.request.beacon_id = other.id.value;
-  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  ASSERT_TRUE(call_service("/ir_decoding/confirm_beacon", confirm));
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 2; }));
 
   // Its restart forgets nothing of that, and whoever listens anew is told.
@@ -253,7 +253,7 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   EXPECT_EQ(told.announcement.beacon_id, moved.beacon.value);
   EXPECT_NEAR(told.announcement.position.x, moved.position_map.x(), 1e-9);
   EXPECT_EQ(told.header.stamp, confirmed_.all()[0]->header.stamp) << "when it was confirmed, not when it is told";
-  ASSERT_TRUE(ros::service::call("/ir_decoding/get_beacons", table));
+  ASSERT_TRUE(call_service("/ir_decoding/get_beacons", table));
   for (const auto& entry : table.response.beacons) {
     EXPECT_FALSE(entry.conflict);
     if (entry.beacon_id != moved.beacon.value) continue;
@@ -274,7 +274,7 @@ TEST_F(IrDecoding, GoodFramesBecomeAnnouncementsAndBadOnesAreCounted) {
   distrusted_.publish(distrusted);
   EXPECT_TRUE(wait_for([&] { return !kept(moved.beacon); }));
   confirm.request.beacon_id = moved.beacon.value;
-  ASSERT_TRUE(ros::service::call("/ir_decoding/confirm_beacon", confirm));
+  ASSERT_TRUE(call_service("/ir_decoding/confirm_beacon", confirm));
   ASSERT_TRUE(wait_for([&] { return confirmed_.size() == 5; }));
   EXPECT_GT(confirmed_.last().header.stamp, distrusted.beacons[0].since);
   EXPECT_TRUE(kept(moved.beacon));

@@ -18,6 +18,7 @@
 #include "lodestar/estimation/pallet/pallet_tracker.hpp"
 #include "lodestar/ros/convert/message_drop.hpp"
 #include "lodestar/ros/nodelets/edge_drop.hpp"
+#include "ros/support/call_service.hpp"
 #include "ros/support/diagnostics.hpp"
 #include "ros/support/inbox.hpp"
 #include "ros/support/node_process.hpp"
@@ -122,9 +123,10 @@ class PalletTracking : public testing::Test {
   }
   template <class Service>
   typename Service::Response call(const std::string& name, const typename Service::Request& request) {
-    typename Service::Response response;
-    EXPECT_TRUE(ros::service::call(name, const_cast<typename Service::Request&>(request), response)) << name;
-    return response;
+    Service service;
+    service.request = request;
+    EXPECT_TRUE(call_service(name, service)) << name;
+    return service.response;
   }
   GetPallet::Response get(const std::string& id) {
     GetPallet::Request request;
@@ -194,6 +196,8 @@ TEST_F(PalletTracking, KeepsPalletsTellsThemAndOutlivesARestart) {
   find.area.points.resize(2);
   EXPECT_FALSE(call<FindPallets>("/pallets/find", find).success);
   find.area.points.resize(3);
+  find.area.points[1].x = find.area.points[2].y = 1e38F;
+  EXPECT_FALSE(call<FindPallets>("/pallets/find", find).success) << "farther than anything is";
   find.area.points[1].x = 1.4;  // beside it
   find.area.points[2].y = 0.1;
   EXPECT_TRUE(call<FindPallets>("/pallets/find", find).pallets.empty());

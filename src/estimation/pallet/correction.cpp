@@ -7,6 +7,11 @@
 namespace lodestar {
 namespace {
 
+bool can_stand(const PalletPose& pose) {
+  constexpr double kLeastUpright = 0.94;  // cosine of 20 degrees
+  return is_possible(pose.T_map_pallet, pose.covariance) && pose.T_map_pallet.linear()(2, 2) > kLeastUpright;
+}
+
 std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrection& correction) {
   if (map.find(correction.id) == nullptr) return CorrectionFault::kUnknownPallet;
   if (!correction.same_as.empty()) {
@@ -14,6 +19,8 @@ std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrec
     if (same == nullptr || correction.same_as == correction.id ||
         (map.carries(correction.same_as) && !map.carries(correction.id)))
       return CorrectionFault::kUnknownSame;
+    const std::string &told = map.find(correction.id)->pallet.sscc, &own = same->pallet.sscc;
+    if (correction.sscc.empty() && !told.empty() && !own.empty() && told != own) return CorrectionFault::kTwoLabels;
   }
   if (!correction.sscc.empty()) {
     if (!is_sscc(correction.sscc)) return CorrectionFault::kSscc;
@@ -22,8 +29,8 @@ std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrec
       return CorrectionFault::kSsccTaken;
   }
   if (!correction.type.empty() && map.find_size(correction.type) == nullptr) return CorrectionFault::kType;
-  if (correction.pose && !is_possible(correction.pose->T_map_pallet, correction.pose->covariance))
-    return CorrectionFault::kPose;
+  if (correction.pose && !can_stand(*correction.pose)) return CorrectionFault::kPose;
+  if (correction.reason.size() > kLongestReason) return CorrectionFault::kReason;
   if (map.carries(correction.id) && (correction.gone || correction.pose)) return CorrectionFault::kOnFork;
   return std::nullopt;
 }
@@ -46,10 +53,16 @@ const char* name(CorrectionFault fault) {
       return "sscc is not 18 digits with a right check digit";
     case CorrectionFault::kSsccTaken:
       return "another pallet has this sscc: give its id in same_as";
+    case CorrectionFault::kTwoLabels:
+      return "the two have different labels: say in sscc which one is right";
     case CorrectionFault::kType:
       return "the vehicle file has no such type";
     case CorrectionFault::kPose:
-      return "the pose is farther than 10000 m from the map's origin, or its sigma above 1000 m or rad";
+      return "the pose is farther than 10000 m from the map's origin, its sigma above 1000 m or rad, or it leans by "
+             "more "
+             "than 20 degrees";
+    case CorrectionFault::kReason:
+      return "the reason is longer than 1000 octets";
     case CorrectionFault::kOnFork:
       return "the fork carries this pallet: it has no other pose and is not gone";
   }

@@ -8,6 +8,7 @@ namespace lodestar {
 namespace {
 
 constexpr std::size_t kNewest = 500;
+constexpr char kSuspected[] = "it may be what was lifted";
 
 bool earlier(const PalletChange& a, const PalletChange& b) { return a.sequence < b.sequence; }
 
@@ -79,11 +80,14 @@ void PalletLedger::amend(const Pallet& pallet, Stamp stamp, const std::vector<st
 
 void PalletLedger::doubt(const std::string& id, Stamp stamp, const std::string& reason) {
   const PalletChange last = *map_.find(id);
+  if (last.pallet.state == PalletState::kUncertain) return;
   Pallet pallet = last.pallet;
   pallet.state = PalletState::kUncertain;
   pallet.changed = stamp;
   amend(pallet, stamp, last.candidates, reason);
 }
+
+void PalletLedger::suspect(const std::string& id, Stamp stamp) { doubt(id, stamp, kSuspected); }
 
 void PalletLedger::settle(Pallet pallet, PalletState state, Stamp stamp, const std::string& reason) {
   const std::vector<std::string> candidates = map_.find(pallet.id)->candidates;
@@ -122,8 +126,7 @@ void PalletLedger::merge(const std::string& id, const std::string& into, PalletS
 void PalletLedger::release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason) {
   for (const std::string& id : candidates) {
     const PalletChange* candidate = map_.find(id);
-    if (candidate == nullptr || candidate->pallet.state != PalletState::kUncertain || !candidate->candidates.empty())
-      continue;
+    if (candidate == nullptr || candidate->reason != kSuspected) continue;  // or its doubt is another one
     const bool asked_for =
         std::any_of(map_.all().begin(), map_.all().end(), [&](const auto& entry) { return lists(entry.second, id); });
     if (!asked_for) settle(candidate->pallet, PalletState::kStanding, stamp, reason);

@@ -11,6 +11,7 @@ namespace {
 
 /// How exactly pallets stand upon one another, before it is known from where they stood.
 constexpr double kStackSigma_m = 0.1, kStackSigma_rad = 0.05;
+constexpr char kLabelRead[] = "its label was read";
 
 double yaw(const RigidTransform& T) { return roll_pitch_yaw(T.linear()).yaw_rad; }
 
@@ -21,6 +22,16 @@ Seat stacked_seat(const Fork& fork, const PalletPose& rider) {
   const Vector4 sigma(kStackSigma_m, kStackSigma_m, kStackSigma_m, kStackSigma_rad);
   seat.covariance = sigma.cwiseAbs2().asDiagonal();
   return seat;
+}
+
+/// Those that a pallet with a label may still be.
+std::vector<std::string> without_label(const std::vector<std::string>& ids, const PalletMap& map) {
+  std::vector<std::string> out;
+  for (const std::string& id : ids) {
+    const PalletChange* found = map.find(id);
+    if (found != nullptr && found->pallet.sscc.empty()) out.push_back(id);
+  }
+  return out;
 }
 
 }  // namespace
@@ -199,7 +210,11 @@ void PalletTracker::pick(const LoadChange& change) {
     pallet.id = new_id_();
     pallet.type = new_type(at);
   }
-  if (!label.empty()) pallet.sscc = label;
+  const std::vector<std::string> asked = candidates;
+  if (!label.empty()) {
+    pallet.sscc = label;
+    candidates = without_label(candidates, pallets());
+  }
   const CarriedPallet carried{pallet.id, seat_of(pallet, identity.pallet != nullptr, at)};
   const bool in_doubt = !candidates.empty() || (label.empty() && !at);
   pallet.state = in_doubt ? PalletState::kUncertain : PalletState::kOnFork;
@@ -210,9 +225,9 @@ void PalletTracker::pick(const LoadChange& change) {
   carry({carried});
   if (at) pick_riders(pose_of(pallet), pallet.type, change, *at);
 
-  for (const std::string& candidate : identity.candidates)
-    ledger_.doubt(candidate, change.stamp, "it may be what was lifted");
+  for (const std::string& candidate : identity.candidates) ledger_.suspect(candidate, change.stamp);
   if (in_doubt) return;
+  ledger_.release(asked, change.stamp, kLabelRead);
   ledger_.strike(pallet.id, change.stamp, "it was lifted elsewhere");
   if (at) doubt_in_the_way(pallet, change.stamp, "another pallet was lifted where it stood");
 }
@@ -270,26 +285,21 @@ void PalletTracker::doubt_in_the_way(const Pallet& pallet, Stamp stamp, const st
 
 /// A label that was read while the pallet is carried says which one it is.
 void PalletTracker::read_late(const LoadSample& sample) {
-  const std::string reason = "its label was read";
   for (const CarriedPallet& carried : carried_)
     if (pallets().find(carried.id)->pallet.sscc == sample.label) return;
   const PalletChange last = *pallets().find(carried_.front().id);
   if (!last.pallet.sscc.empty()) return drops_.add(PalletDrop::kLabelConflict);
   if (const PalletChange* owner = pallets().with_sscc(sample.label)) {
     const std::string id = owner->pallet.id;
-    ledger_.merge(last.pallet.id, id, PalletState::kOnFork, sample.stamp, reason);
+    ledger_.merge(last.pallet.id, id, PalletState::kOnFork, sample.stamp, kLabelRead);
     return rename_carried(last.pallet.id, id);
   }
   Pallet pallet = last.pallet;
   pallet.sscc = sample.label;
-  std::vector<std::string> left;
-  for (const std::string& id : last.candidates) {
-    const PalletChange* candidate = pallets().find(id);
-    if (candidate != nullptr && candidate->pallet.sscc.empty()) left.push_back(id);
-  }
-  if (left.empty()) return ledger_.settle(pallet, PalletState::kOnFork, sample.stamp, reason);
-  ledger_.amend(pallet, sample.stamp, left, reason);
-  ledger_.release(last.candidates, sample.stamp, reason);
+  const std::vector<std::string> left = without_label(last.candidates, pallets());
+  if (left.empty()) return ledger_.settle(pallet, PalletState::kOnFork, sample.stamp, kLabelRead);
+  ledger_.amend(pallet, sample.stamp, left, kLabelRead);
+  ledger_.release(last.candidates, sample.stamp, kLabelRead);
 }
 
 }  // namespace lodestar

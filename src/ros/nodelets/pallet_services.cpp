@@ -1,5 +1,6 @@
 #include "lodestar/ros/nodelets/pallet_services.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "lodestar/base/measurement/pose_limits.hpp"
@@ -105,9 +106,13 @@ bool PalletServices::get(GetPallet::Request& request, GetPallet::Response& respo
 
 bool PalletServices::find(FindPallets::Request& request, FindPallets::Response& response) {
   const FloorPolygon area = polygon_from(request.area);
-  response.success = area.empty() || is_simple(area);
+  const auto is_far = [](const Eigen::Vector2d& corner) { return !(corner.array().abs() <= kFarthest_m).all(); };
+  response.success = area.empty() || (std::none_of(area.begin(), area.end(), is_far) && is_simple(area));
   if (!response.success) {
-    response.message = "area is no polygon: give at least three corners in order, with no side across another";
+    response.message =
+        "area is no polygon: give at least three corners in order, with no side across another, none farther than "
+        "10000 "
+        "m from the map's origin";
     return true;
   }
   for (const Pallet& pallet : tracker_.now()) {

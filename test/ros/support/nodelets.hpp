@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "call_service.hpp"
+
 namespace lodestar::test {
 
 /// Starts a nodelet in a manager that runs, or may soon. False: it refused.
@@ -14,14 +16,14 @@ inline bool load_nodelet(const std::string& name, const std::string& type, const
   load.request.name = "/" + name;
   load.request.type = type;
   const std::string service = "/" + manager + "/load_nodelet";
-  return ros::service::waitForService(service, ros::Duration(60)) && ros::service::call(service, load) &&
+  return ros::service::waitForService(service, ros::Duration(60)) && call_service(service, load) &&
          load.response.success;
 }
 
 inline bool unload_nodelet(const std::string& name, const std::string& manager = "manager") {
   nodelet::NodeletUnload unload;
   unload.request.name = "/" + name;
-  return ros::service::call("/" + manager + "/unload_nodelet", unload) && unload.response.success;
+  return call_service("/" + manager + "/unload_nodelet", unload) && unload.response.success;
 }
 
 }  // namespace lodestar::test

@@ -24,14 +24,18 @@ struct PalletCorrection {
   std::string reason;
 };
 
+constexpr std::size_t kLongestReason = 1000;  ///< octets: it goes out with each document of the correction
+
 /// Why a correction was not taken: nothing of it was.
 enum class CorrectionFault {
   kUnknownPallet,  ///< no pallet has `id`
   kUnknownSame,    ///< no other pallet has `same_as`, or the fork carries that one and not this
   kSscc,           ///< not 18 digits with a right check digit
   kSsccTaken,      ///< another pallet has this label: say `same_as`
+  kTwoLabels,      ///< `id` and `same_as` have labels, and different ones: say which is right
   kType,           ///< the vehicle file has no such size
-  kPose,           ///< nothing can stand there, or so unsurely (is_possible)
+  kPose,           ///< nothing can stand there, or so unsurely (is_possible), or so far from upright
+  kReason,         ///< longer than kLongestReason
   kOnFork,         ///< the fork carries it: neither pose nor gone can be told
 };
 const char* name(CorrectionFault fault);

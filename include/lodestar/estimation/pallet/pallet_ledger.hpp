@@ -36,13 +36,15 @@ class PalletLedger {
   /// A correction of what was last written of this pallet.
   void amend(const Pallet& pallet, Stamp stamp, const std::vector<std::string>& candidates, const std::string& reason);
 
-  /// The pallet, or its place, is in doubt from now on.
+  /// The pallet, or its place, is in doubt from now on. One that is already stays so for the first reason.
   void doubt(const std::string& id, Stamp stamp, const std::string& reason);
-  /// The pallet is so, and in this state, without a doubt; what were its candidates stand where they stood.
+  /// ... for it is a candidate: until it is none any more.
+  void suspect(const std::string& id, Stamp stamp);
+  /// The pallet is so, and in this state, without a doubt; what was suspected for its sake stands where it stood.
   void settle(Pallet pallet, PalletState state, Stamp stamp, const std::string& reason);
   /// What was told as `id` is pallet `into`, in this state; `id` ends.
   void merge(const std::string& id, const std::string& into, PalletState state, Stamp stamp, const std::string& reason);
-  /// Those that are no pallet's candidates any more stand where they stood.
+  /// Those of them that are in doubt as candidates alone, and are no pallet's any more, stand where they stood.
   void release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason);
   /// This pallet was found: it is no other's candidate any more.
   void strike(const std::string& id, Stamp stamp, const std::string& reason);

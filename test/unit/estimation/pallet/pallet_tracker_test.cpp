@@ -100,6 +100,81 @@ TEST(PalletTracker, asks_where_two_may_be_meant_and_takes_the_answer) {
   EXPECT_EQ(corrected->at(0).corrects, 8u) << "the drop of id3";
 }
 
+/// It was lifted either where `id1` and `id2` stand, or where `id3` does; it is `id4`, and stands at (50, 0).
+void lift_one_of_two(PalletTruck& truck, double y_m, double height_m = 0) {
+  truck.set_sigma(0.4);
+  truck.stand(0, y_m);
+  ASSERT_GE(truck.lift("", height_m).at(0).candidates.size(), 2u);
+  truck.set_sigma(0.01);
+  truck.stand(50, 0);
+  truck.lower();
+}
+
+PalletCorrection is_the_same(const PalletTruck& truck, const std::string& id, const std::string& same) {
+  PalletCorrection answer;
+  answer.stamp = truck.now;
+  answer.id = id;
+  answer.same_as = same;
+  return answer;
+}
+
+TEST(PalletTracker, an_answer_ends_no_doubt_of_another_cause) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0, PalletTruck::sscc(2));
+  ASSERT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "another was set down where it stood";
+  truck.bring(0, 0.9, PalletTruck::sscc(3));
+  lift_one_of_two(truck, 0.5);
+  ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id4", "id3")).ok());
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain) << "two are not in one place";
+}
+
+TEST(PalletTracker, an_answer_sets_nothing_down_that_the_fork_carries) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0, PalletTruck::sscc(2), 1.0);
+  truck.bring(0, 0.9, PalletTruck::sscc(3), 1.0);
+  lift_one_of_two(truck, 0.45, 1.0);
+  truck.stand(0, 0);
+  truck.lift(PalletTruck::sscc(1));
+  ASSERT_EQ(truck.tracker.carried().size(), 2u) << "id2, that may have gone, rides on id1";
+  ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id4", "id3")).ok());
+  EXPECT_NE(truck.pallet("id2").state, PalletState::kStanding);
+}
+
+TEST(PalletTracker, a_label_read_at_the_next_lift_ends_the_doubt) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  lift_one_of_two(truck, 0.5);
+  truck.stand(50, 0);
+  const auto changes = truck.lift(PalletTruck::sscc(9));
+  EXPECT_EQ(changes.at(0).pallet.state, PalletState::kOnFork);
+  EXPECT_TRUE(changes.at(0).candidates.empty()) << "those have other labels";
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
+}
+
+TEST(PalletTracker, a_correction_that_cannot_be_meant_changes_nothing) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(9, 9, PalletTruck::sscc(2));
+  PalletCorrection answer = is_the_same(truck, "id1", "id2");
+  EXPECT_EQ(truck.tracker.correct(answer).error(), CorrectionFault::kTwoLabels);
+  answer.sscc = PalletTruck::sscc(2);
+  EXPECT_TRUE(truck.tracker.correct(answer).ok()) << "the first was misread";
+  answer = PalletCorrection();
+  answer.stamp = truck.now;
+  answer.id = "id2";
+  answer.reason = std::string(kLongestReason + 1, 'x');
+  EXPECT_EQ(truck.tracker.correct(answer).error(), CorrectionFault::kReason);
+  answer.reason = "fallen over";
+  answer.pose = pose_of(truck.pallet("id2"));
+  answer.pose->T_map_pallet.rotate(Eigen::AngleAxisd(radians(90), Eigen::Vector3d::UnitX()));
+  EXPECT_EQ(truck.tracker.correct(answer).error(), CorrectionFault::kPose);
+}
+
 TEST(PalletTracker, what_left_by_a_dock_stays_gone_whatever_it_proves_to_be) {
   PalletTrackerParams params;
   Zone dock;
