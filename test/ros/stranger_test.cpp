@@ -128,7 +128,6 @@ TEST_F(StrangerOnTheChannel, WhateverHeDoesIsToldAndMovesNoPose) {
   play(Trick::kYesterday, 1.5);
   EXPECT_TRUE(wait_for([&] { return diagnostics_.count("ir_decoding", "corrections") > 0; }));
   EXPECT_TRUE(refused(IrDrop::kSuperframe)) << diagnostics_.message("ir_decoding");
-  expect_the_truth();
 }
 
 }  // namespace
