@@ -8,8 +8,8 @@ namespace lodestar {
 namespace {
 
 constexpr double kWholeNumber = 0.005;  ///< a rate so near to one is it
-constexpr double kMostJitter = 0.25;    ///< rms, of the period; 20 % to either side are 0.12
-constexpr double kSameRate = 0.01;      ///< two estimates so near are of one rate
+constexpr double kMostJitter = 0.14;  ///< rms, of the period; 20 % to either side are 0.12, every third frame lost 0.17
+constexpr double kSameRate = 0.01;    ///< two estimates so near are of one rate
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

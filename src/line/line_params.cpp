@@ -7,7 +7,7 @@ Duration heard_for(const Link& link) { return from_seconds(3.0 * link.slot_s * l
 LineParams line_params(const Site& site, const Vehicle& vehicle, std::optional<double> frame_rate_hz) {
   LineParams params;
   params.detector.tone_table_hz = site.tone_table_hz;
-  if (vehicle.camera_rate_hz) frame_rate_hz = vehicle.camera_rate_hz;
+  if (!frame_rate_hz) frame_rate_hz = vehicle.camera_rate_hz;
   if (vehicle.window_frames) {
     params.detector.window_frames = *vehicle.window_frames;
   } else if (frame_rate_hz) {

@@ -32,9 +32,9 @@ using BoardView = std::vector<BoardPoint>;
 /// What is wrong with a board's dimensions; empty: nothing.
 std::string fault_of(const Board& board);
 
-/// The board's marks in an image; none where it is not seen (chessboard: not whole), or
-/// its marks there lie in a line. The families of markers are
-/// OpenCV's 6x6_250 for ChArUco and AprilTag 36h11 with Kalibr's border of two cells for AprilGrid.
+/// The board's marks in an image; none where it is not seen (chessboard: not whole), or its marks there lie in a line.
+/// The families of markers are OpenCV's 6x6_250 for ChArUco and AprilTag 36h11 with Kalibr's border of two cells for
+/// AprilGrid.
 std::optional<BoardView> find_board(const Image& image, const Board& board);
 
 }  // namespace lodestar

@@ -30,8 +30,8 @@ constexpr double kReserve_db = 4;
 
 /// The book of the strictest rules that holds `wanted` codes; if none does, the book with the most codes, which may be
 /// empty. Tones are multiples of rate / window and pass check_tones; no tone of a code is a multiple of another of its
-/// tones, or the sum of two, and none lies next to another
-/// in the bank unless the book is too small without such codes. Reference: docs/math/code_plan.md.
+/// tones, or the sum of two, and none lies next to another in the bank unless the book is too small without such codes.
+/// Reference: docs/math/code_plan.md.
 CodeBook make_code_book(const CodeBookParams& params, int wanted);
 
 }  // namespace lodestar

@@ -7,6 +7,10 @@
 namespace lodestar {
 namespace {
 
+bool is_here(const Pallet& pallet) {
+  return pallet.state == PalletState::kStanding || pallet.state == PalletState::kOnFork;
+}
+
 bool can_stand(const PalletPose& pose) {
   constexpr double kLeastUpright = 0.94;  // cosine of 20 degrees
   return is_possible(pose.T_map_pallet, pose.covariance) && pose.T_map_pallet.linear()(2, 2) > kLeastUpright;
@@ -19,8 +23,11 @@ std::optional<CorrectionFault> fault_of(const PalletMap& map, const PalletCorrec
     if (same == nullptr || correction.same_as == correction.id ||
         (map.carries(correction.same_as) && !map.carries(correction.id)))
       return CorrectionFault::kUnknownSame;
-    const std::string &told = map.find(correction.id)->pallet.sscc, &own = same->pallet.sscc;
-    if (correction.sscc.empty() && !told.empty() && !own.empty() && told != own) return CorrectionFault::kTwoLabels;
+    const Pallet &told = map.find(correction.id)->pallet, &own = same->pallet;
+    if (told.state == PalletState::kGone && is_here(own) && own.changed >= told.changed)
+      return CorrectionFault::kSeenSince;
+    if (correction.sscc.empty() && !told.sscc.empty() && !own.sscc.empty() && told.sscc != own.sscc)
+      return CorrectionFault::kTwoLabels;
   }
   if (!correction.sscc.empty()) {
     if (!is_sscc(correction.sscc)) return CorrectionFault::kSscc;
@@ -53,14 +60,15 @@ const char* name(CorrectionFault fault) {
       return "sscc is not 18 digits with a right check digit";
     case CorrectionFault::kSsccTaken:
       return "another pallet has this sscc: give its id in same_as";
+    case CorrectionFault::kSeenSince:
+      return "the pallet is gone, and the one in same_as was seen since: they are two, or this was told before";
     case CorrectionFault::kTwoLabels:
       return "the two have different labels: say in sscc which one is right";
     case CorrectionFault::kType:
       return "the vehicle file has no such type";
     case CorrectionFault::kPose:
-      return "the pose is farther than 10000 m from the map's origin, its sigma above 1000 m or rad, or it leans by "
-             "more "
-             "than 20 degrees";
+      return "the pose is farther than 10000 m from the map's origin, its sigma above 1000 m or rad, "
+             "or it leans by more than 20 degrees";
     case CorrectionFault::kReason:
       return "the reason is longer than 1000 octets";
     case CorrectionFault::kOnFork:

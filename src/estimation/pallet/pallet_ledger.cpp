@@ -8,7 +8,7 @@ namespace lodestar {
 namespace {
 
 constexpr std::size_t kNewest = 500;
-constexpr char kSuspected[] = "it may be what was lifted";
+constexpr char kSuspected[] = "it may be what was lifted";  // also in memory files: keep it
 
 bool earlier(const PalletChange& a, const PalletChange& b) { return a.sequence < b.sequence; }
 
@@ -80,7 +80,7 @@ void PalletLedger::amend(const Pallet& pallet, Stamp stamp, const std::vector<st
 
 void PalletLedger::doubt(const std::string& id, Stamp stamp, const std::string& reason) {
   const PalletChange last = *map_.find(id);
-  if (last.pallet.state == PalletState::kUncertain) return;
+  if (last.pallet.state == PalletState::kUncertain && (last.reason != kSuspected || reason == kSuspected)) return;
   Pallet pallet = last.pallet;
   pallet.state = PalletState::kUncertain;
   pallet.changed = stamp;
@@ -101,6 +101,7 @@ void PalletLedger::merge(const std::string& id, const std::string& into, PalletS
                          const std::string& reason) {
   const PalletChange told = *map_.find(id);
   const Pallet& same = map_.find(into)->pallet;
+  const std::vector<std::string> answered = map_.find(into)->candidates;
   PalletChange change;
   change.stamp = stamp;
   change.kind = PalletChangeKind::kCorrection;
@@ -120,13 +121,15 @@ void PalletLedger::merge(const std::string& id, const std::string& into, PalletS
   ended.changed = stamp;
   amend(ended, stamp, {}, reason);
   release(told.candidates, stamp, reason);
+  release(answered, stamp, reason);
   strike(into, stamp, reason);
 }
 
 void PalletLedger::release(const std::vector<std::string>& candidates, Stamp stamp, const std::string& reason) {
   for (const std::string& id : candidates) {
     const PalletChange* candidate = map_.find(id);
-    if (candidate == nullptr || candidate->reason != kSuspected) continue;  // or its doubt is another one
+    if (candidate == nullptr || candidate->pallet.state != PalletState::kUncertain || candidate->reason != kSuspected)
+      continue;  // or its doubt is another one
     const bool asked_for =
         std::any_of(map_.all().begin(), map_.all().end(), [&](const auto& entry) { return lists(entry.second, id); });
     if (!asked_for) settle(candidate->pallet, PalletState::kStanding, stamp, reason);

@@ -226,8 +226,8 @@ void PalletTracker::pick(const LoadChange& change) {
   if (at) pick_riders(pose_of(pallet), pallet.type, change, *at);
 
   for (const std::string& candidate : identity.candidates) ledger_.suspect(candidate, change.stamp);
-  if (in_doubt) return;
   ledger_.release(asked, change.stamp, kLabelRead);
+  if (in_doubt) return;
   ledger_.strike(pallet.id, change.stamp, "it was lifted elsewhere");
   if (at) doubt_in_the_way(pallet, change.stamp, "another pallet was lifted where it stood");
 }

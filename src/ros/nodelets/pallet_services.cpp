@@ -110,9 +110,8 @@ bool PalletServices::find(FindPallets::Request& request, FindPallets::Response& 
   response.success = area.empty() || (std::none_of(area.begin(), area.end(), is_far) && is_simple(area));
   if (!response.success) {
     response.message =
-        "area is no polygon: give at least three corners in order, with no side across another, none farther than "
-        "10000 "
-        "m from the map's origin";
+        "area is no polygon: give at least three corners in order, with no side across another, "
+        "none farther than 10000 m from the map's origin";
     return true;
   }
   for (const Pallet& pallet : tracker_.now()) {

@@ -17,7 +17,7 @@ FileSource::FileSource(const std::string& address) : path_(address.substr(0, add
     throw CameraRefusal({{"file:" + address, 0, "'" + option + "' is no option: only ?loop is"}});
   loop_ = !option.empty();
   is_sequence_ = path_.find('%') != std::string::npos;
-  if (is_sequence_ && !std::regex_match(path_, std::regex("[^%]*%0?[1-9][du][^%]*")))
+  if (is_sequence_ && !std::regex_match(path_, std::regex("[^%]*%0?[1-9]?[du][^%]*")))
     throw CameraRefusal({{"file:" + path_, 0, "must have one number, such as %04d, for the pictures of a sequence"}});
   rewind();
 }

@@ -93,5 +93,21 @@ TEST(FrameRateWatch, LostFramesAndTremblingStampsAreNoOtherRate) {
   }
 }
 
+// A host that cannot keep up. Every second frame lost is another rate to anybody who sees the stamps alone.
+TEST(FrameRateWatch, FramesThatAreLostRegularlyAreNoOtherRate) {
+  for (const int lost_of : {3, 4, 5}) {
+    for (const double jitter : {0.0, 0.05, 0.2}) {
+      std::mt19937 random(7);
+      std::uniform_real_distribution<double> late(-jitter, jitter);
+      FrameRateWatch watch(60);
+      for (int i = 0; i < 4000; ++i) {
+        const double time_s = 5 + (i + late(random)) / 60;
+        if (i % lost_of == 0) continue;
+        EXPECT_FALSE(watch.add(Stamp{} + from_seconds(time_s))) << "every " << lost_of << "th, jitter " << jitter;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lodestar

@@ -60,6 +60,9 @@ TEST(LineParams, TakeTheWindowFromVehicleOrTonesAndTheNoiseFromTheVehicle) {
   site.tone_table_hz = {5, 10};
   Vehicle vehicle;
   EXPECT_EQ(line_params(site, vehicle, 25).detector.window_frames, 15);
+  vehicle.camera_rate_hz = 50;
+  EXPECT_EQ(line_params(site, vehicle).detector.window_frames, 20);
+  EXPECT_EQ(line_params(site, vehicle, 25).detector.window_frames, 15) << "what is measured goes before what is told";
   vehicle.window_frames = 20;
   vehicle.gyro_noise_rad_s = 0.0123;
   vehicle.has_ir_receiver = false;

@@ -32,6 +32,7 @@ enum class CorrectionFault {
   kUnknownSame,    ///< no other pallet has `same_as`, or the fork carries that one and not this
   kSscc,           ///< not 18 digits with a right check digit
   kSsccTaken,      ///< another pallet has this label: say `same_as`
+  kSeenSince,      ///< `id` is gone, and `same_as` stood or was carried since
   kTwoLabels,      ///< `id` and `same_as` have labels, and different ones: say which is right
   kType,           ///< the vehicle file has no such size
   kPose,           ///< nothing can stand there, or so unsurely (is_possible), or so far from upright

@@ -36,7 +36,8 @@ class PalletLedger {
   /// A correction of what was last written of this pallet.
   void amend(const Pallet& pallet, Stamp stamp, const std::vector<std::string>& candidates, const std::string& reason);
 
-  /// The pallet, or its place, is in doubt from now on. One that is already stays so for the first reason.
+  /// The pallet, or its place, is in doubt from now on. One that is already stays so for the first
+  /// reason, unless it was but a candidate.
   void doubt(const std::string& id, Stamp stamp, const std::string& reason);
   /// ... for it is a candidate: until it is none any more.
   void suspect(const std::string& id, Stamp stamp);

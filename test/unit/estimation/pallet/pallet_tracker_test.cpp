@@ -156,6 +156,62 @@ TEST(PalletTracker, a_label_read_at_the_next_lift_ends_the_doubt) {
   EXPECT_EQ(truck.pallet("id2").state, PalletState::kStanding);
 }
 
+TEST(PalletTracker, a_candidate_in_whose_place_another_is_set_down_stays_in_doubt) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  lift_one_of_two(truck, 0.5);
+  truck.bring(0, 0, PalletTruck::sscc(7));
+  ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id3", "id2")).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain);
+}
+
+TEST(PalletTracker, a_label_clears_the_candidates_that_have_another) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9);
+  lift_one_of_two(truck, 0.5);
+  truck.stand(50, 0);
+  EXPECT_EQ(truck.lift(PalletTruck::sscc(9)).at(0).candidates, std::vector<std::string>{"id2"});
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding);
+  EXPECT_EQ(truck.pallet("id2").state, PalletState::kUncertain) << "it may be that one still";
+}
+
+TEST(PalletTracker, a_reason_brings_nothing_back) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  lift_one_of_two(truck, 0.5);
+  PalletCorrection gone;
+  gone.stamp = truck.now;
+  gone.id = "id1";
+  gone.gone = true;
+  gone.reason = truck.tracker.pallets().find("id1")->reason;
+  ASSERT_TRUE(truck.tracker.correct(gone).ok());
+  ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id3", "id2")).ok());
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kGone);
+}
+
+TEST(PalletTracker, an_answer_about_the_one_that_asks_ends_its_question) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  lift_one_of_two(truck, 0.5);
+  truck.bring(30, 0);
+  ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id4", "id3")).ok());
+  EXPECT_EQ(truck.pallet("id3").state, PalletState::kStanding);
+  for (const char* id : {"id1", "id2"}) EXPECT_EQ(truck.pallet(id).state, PalletState::kStanding) << id;
+}
+
+TEST(PalletTracker, an_answer_that_is_told_again_changes_nothing) {
+  PalletTruck truck;
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(5, 0);
+  ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id2", "id1")).ok());
+  EXPECT_EQ(truck.tracker.correct(is_the_same(truck, "id2", "id1")).error(), CorrectionFault::kSeenSince);
+  EXPECT_EQ(truck.pallet("id1").state, PalletState::kStanding);
+}
+
 TEST(PalletTracker, a_correction_that_cannot_be_meant_changes_nothing) {
   PalletTruck truck;
   truck.bring(0, 0, PalletTruck::sscc(1));

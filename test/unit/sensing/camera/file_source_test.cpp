@@ -128,6 +128,7 @@ TEST_F(FileSourceTest, FaultsSayWhatToDo) {
   EXPECT_THROW(open_source("file:/nowhere/x.avi"), CameraError);
   EXPECT_THROW(open_source("file:/nowhere/x.avi?fast"), CameraRefusal);
   EXPECT_THROW(open_source("file:" + folder_ + "/later_%04d.png"), CameraError) << "it may come";
+  EXPECT_THROW(open_source("file:" + folder_ + "/later_%d.png"), CameraError);
   std::ofstream(folder_ + "/letter.avi") << "no video";
   for (const char* name : {"/letter.avi", "/frame_%s.png", "/frame_%4d_%4d.png", "/frame_%"})
     EXPECT_THROW(open_source("file:" + folder_ + name), CameraRefusal) << name;
