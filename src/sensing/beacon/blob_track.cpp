@@ -32,7 +32,7 @@ void BlobTrack::restart(const PathFilter& path) {
   path_ = path;
   shape_ = SpotShape();
   designed_ = false;
-  light = KnownLight();
+  known = KnownLight();
   hidden = false;
   flux_.setZero();
   shift_u_.setZero();
@@ -48,7 +48,7 @@ double BlobTrack::gate_px() const { return std::clamp(4.0 * std::sqrt(path_.vari
 
 void BlobTrack::hide() {
   hidden = true;
-  light.mean = 0;
+  known.mean = 0;
   unseen_ = static_cast<int>(flux_.size());
   frames_ = 0;
   path_.forget_acceleration();  // over a second what noise has made of it leads far away

@@ -33,7 +33,7 @@ double known_speed_px_s(const Eigen::Vector2d& pixel, const FrameWindow& window,
   return kKnownSpeedPxS + kHeightShare * step_px / window.interval_s(newest);
 }
 
-bool is_known(const BlobTrack& track) { return track.path().still() || !track.light.code.empty(); }
+bool is_known(const BlobTrack& track) { return track.path().still() || !track.known.code.empty(); }
 
 /// Whether what changes at `pixel` is the doing of the blob at `place`; one that clips is seen far around.
 bool is_near(const BlobTrack& track, const Eigen::Vector2d& place, const Eigen::Vector2d& pixel) {
@@ -135,7 +135,7 @@ bool BlobTracker::take(BlobTrack& track, const FrameWindow& window, const ImageM
   // At rest, what was read once may be too faint for a frame. What never was is soon only in the way; it may have begun
   // to shine within the window.
   const int unread_patience = std::max(3, window_frames_ / 6);
-  if (track.path().still()) return track.unseen_frames() <= (track.light.code.empty() ? unread_patience : patience);
+  if (track.path().still()) return track.unseen_frames() <= (track.known.code.empty() ? unread_patience : patience);
   // One hit says nothing of the way; the dark half of an on-off beacon is bridged from the second on.
   const int known_for = track.hits() == 1 ? 1 : 3 * track.hits();
   return track.unseen_frames() <= std::min(patience, known_for);

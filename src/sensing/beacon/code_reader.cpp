@@ -47,7 +47,7 @@ float offset_residual(const BlobTrack::Series& flux, const BlobTrack::Series& sh
 float scatter_of(float frames) { return frames + 3 * std::sqrt(2 * frames); }
 
 /// Whether the blob has been read so and not been hidden since: what it must prove then is less.
-bool is_known(const BlobTrack& track, const ToneSet& code) { return code == track.light.code && !track.hidden; }
+bool is_known(const BlobTrack& track, const ToneSet& code) { return code == track.known.code && !track.hidden; }
 
 }  // namespace
 
@@ -253,14 +253,14 @@ void CodeReader::learn(BlobTrack& track, const FrameWindow& window, const ToneBa
 CodeReader::Reading CodeReader::read_newest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank,
                                             int frames, double dark_variance) {
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxColumns, 1>;
-  const int columns = 1 + 2 * track.light.code.size();
+  const int columns = 1 + 2 * track.known.code.size();
   SmallMatrix normal = SmallMatrix::Zero(columns, columns);
   Columns right = Columns::Zero(columns), row(columns);
   const auto fill = [&](int slot) {
     int c = 0;
     row[c++] = 1;
     for (int k = 0; k < bank.tones(); ++k) {
-      if (!track.light.code.contains(k)) continue;
+      if (!track.known.code.contains(k)) continue;
       row[c++] = bank.waves()(2 * k, slot);
       row[c++] = bank.waves()(2 * k + 1, slot);
     }
@@ -284,7 +284,7 @@ CodeReader::Reading CodeReader::read_newest(const BlobTrack& track, const FrameW
     energy += (track.flux()[slot] - mean) * (track.flux()[slot] - mean);
   }
   Reading reading;
-  reading.code = track.light.code;
+  reading.code = track.known.code;
   reading.mean = reading.constant = x[0];
   reading.waves.head(columns - 1) = x.tail(columns - 1);
   const auto left_by_model = [&] {
@@ -293,7 +293,7 @@ CodeReader::Reading CodeReader::read_newest(const BlobTrack& track, const FrameW
   };
   model_tones(track.flux(), reading.mean);
   float left = left_by_model();
-  if (track.light.on_off) {
+  if (track.known.on_off) {
     model_on_off(track.flux());
     left = std::min(left, left_by_model());
   }
@@ -313,7 +313,7 @@ bool CodeReader::has_gone(const BlobTrack& track, const FrameWindow& window, con
   // Wald's sequential test, from the newest frame back: the light that is known, or none.
   constexpr float kSure = 9;           // one in e^9 is taken for the other
   constexpr float kWaveShare = 0.08f;  // of the light, that the known waves leave open
-  const KnownLight& known = track.light;
+  const KnownLight& known = track.known;
   if (known.mean <= 0) return false;
   const float noise = std::max(known.variance, static_cast<float>(dark_variance) * track.filter().flux_variance());
   float odds = 0;  // log of the likelihoods' ratio
@@ -389,13 +389,13 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
   }
   constexpr int kLeastFreedom = 4;  // of a fit that means something
   const int half = window.capacity() / 2;
-  const bool proven = track.light.readings >= half && half - 1 - 2 * track.light.code.size() >= kLeastFreedom;
+  const bool proven = track.known.readings >= half && half - 1 - 2 * track.known.code.size() >= kLeastFreedom;
   if (!reading && track.hidden && proven && track.frames() >= half) {
     reading = read_newest(track, window, bank, half, dark_variance);
     if (!stands(track, *reading, thresholds)) return std::nullopt;
   }
   if (!reading) return std::nullopt;
-  remember(track.light, *reading);
+  remember(track.known, *reading);
   track.confirm();
   if (track.path().variance() > kMaxCentreSigmaPx * kMaxCentreSigmaPx) return std::nullopt;
 
@@ -409,15 +409,15 @@ std::optional<Sighting> CodeReader::read(BlobTrack& track, const FrameWindow& wi
   return sighting;
 }
 
-void CodeReader::remember(KnownLight& light, const Reading& reading) const {
-  light.waves = reading.waves;
-  light.mean = reading.constant;
+void CodeReader::remember(KnownLight& known, const Reading& reading) const {
+  known.waves = reading.waves;
+  known.mean = reading.constant;
   const float misfit = std::min(reading.tone_misfit, reading.on_off_misfit);
   if (misfit == std::numeric_limits<float>::infinity()) return;  // of half a window, which was read as what it was
-  light.readings = reading.code == light.code ? light.readings + 1 : 1;
-  light.code = reading.code;
-  light.on_off = reading.on_off_misfit < reading.tone_misfit;
-  light.variance = misfit / static_cast<float>(std::max<Eigen::Index>(1, wave_.size() - 1 - 2 * reading.code.size()));
+  known.readings = reading.code == known.code ? known.readings + 1 : 1;
+  known.code = reading.code;
+  known.on_off = reading.on_off_misfit < reading.tone_misfit;
+  known.variance = misfit / static_cast<float>(std::max<Eigen::Index>(1, wave_.size() - 1 - 2 * reading.code.size()));
 }
 
 bool CodeReader::stands(const BlobTrack& track, const Reading& reading, const PowerThresholds& thresholds) const {

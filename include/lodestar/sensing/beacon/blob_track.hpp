@@ -82,7 +82,7 @@ class BlobTrack {
   void learn_noise(double pixel_variance) { pixel_variance_ = pixel_variance; }
 
   /// The light that it was last sighted with, and whether that has gone since (hidden by a mast, a rack).
-  KnownLight light;
+  KnownLight known;
   bool hidden = false;
   void hide();
   /// Its code was read: it is there, though too faint for one frame to show.

@@ -78,7 +78,7 @@ class CodeReader {
   /// The same of fewer frames, as the light that was known.
   Reading read_newest(const BlobTrack& track, const FrameWindow& window, const ToneBank& bank, int frames,
                       double dark_variance);
-  void remember(KnownLight& light, const Reading& reading) const;
+  void remember(KnownLight& known, const Reading& reading) const;
   /// Whether it is a code, explains the light, and is deep and strong enough.
   bool stands(const BlobTrack& track, const Reading& reading, const PowerThresholds& thresholds) const;
   /// Whether the newest frames lack the light that was read before.
