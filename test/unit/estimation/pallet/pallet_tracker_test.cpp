@@ -100,7 +100,7 @@ TEST(PalletTracker, asks_where_two_may_be_meant_and_takes_the_answer) {
   EXPECT_EQ(corrected->at(0).corrects, 8u) << "the drop of id3";
 }
 
-/// It was lifted either where `id1` and `id2` stand, or where `id3` does; it is `id4`, and stands at (50, 0).
+/// From a place where either of two may be meant, without a label; set down at (50, 0).
 void lift_one_of_two(PalletTruck& truck, double y_m, double height_m = 0) {
   truck.set_sigma(0.4);
   truck.stand(0, y_m);
@@ -108,6 +108,13 @@ void lift_one_of_two(PalletTruck& truck, double y_m, double height_m = 0) {
   truck.set_sigma(0.01);
   truck.stand(50, 0);
   truck.lower();
+}
+
+/// They are `id1` and `id2`; what was lifted is `id3`.
+void lift_one_of_two_labelled(PalletTruck& truck) {
+  truck.bring(0, 0, PalletTruck::sscc(1));
+  truck.bring(0, 0.9, PalletTruck::sscc(2));
+  lift_one_of_two(truck, 0.5);
 }
 
 PalletCorrection is_the_same(const PalletTruck& truck, const std::string& id, const std::string& same) {
@@ -145,9 +152,7 @@ TEST(PalletTracker, an_answer_sets_nothing_down_that_the_fork_carries) {
 
 TEST(PalletTracker, a_label_read_at_the_next_lift_ends_the_doubt) {
   PalletTruck truck;
-  truck.bring(0, 0, PalletTruck::sscc(1));
-  truck.bring(0, 0.9, PalletTruck::sscc(2));
-  lift_one_of_two(truck, 0.5);
+  lift_one_of_two_labelled(truck);
   truck.stand(50, 0);
   const auto changes = truck.lift(PalletTruck::sscc(9));
   EXPECT_EQ(changes.at(0).pallet.state, PalletState::kOnFork);
@@ -158,9 +163,7 @@ TEST(PalletTracker, a_label_read_at_the_next_lift_ends_the_doubt) {
 
 TEST(PalletTracker, a_candidate_in_whose_place_another_is_set_down_stays_in_doubt) {
   PalletTruck truck;
-  truck.bring(0, 0, PalletTruck::sscc(1));
-  truck.bring(0, 0.9, PalletTruck::sscc(2));
-  lift_one_of_two(truck, 0.5);
+  lift_one_of_two_labelled(truck);
   truck.bring(0, 0, PalletTruck::sscc(7));
   ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id3", "id2")).ok());
   EXPECT_EQ(truck.pallet("id1").state, PalletState::kUncertain);
@@ -179,9 +182,7 @@ TEST(PalletTracker, a_label_clears_the_candidates_that_have_another) {
 
 TEST(PalletTracker, a_reason_brings_nothing_back) {
   PalletTruck truck;
-  truck.bring(0, 0, PalletTruck::sscc(1));
-  truck.bring(0, 0.9, PalletTruck::sscc(2));
-  lift_one_of_two(truck, 0.5);
+  lift_one_of_two_labelled(truck);
   PalletCorrection gone;
   gone.stamp = truck.now;
   gone.id = "id1";
@@ -194,9 +195,7 @@ TEST(PalletTracker, a_reason_brings_nothing_back) {
 
 TEST(PalletTracker, an_answer_about_the_one_that_asks_ends_its_question) {
   PalletTruck truck;
-  truck.bring(0, 0, PalletTruck::sscc(1));
-  truck.bring(0, 0.9, PalletTruck::sscc(2));
-  lift_one_of_two(truck, 0.5);
+  lift_one_of_two_labelled(truck);
   truck.bring(30, 0);
   ASSERT_TRUE(truck.tracker.correct(is_the_same(truck, "id4", "id3")).ok());
   EXPECT_EQ(truck.pallet("id3").state, PalletState::kStanding);
